@@ -1,0 +1,1 @@
+//! The language: source text to a checked, compiled rule set.

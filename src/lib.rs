@@ -1,0 +1,17 @@
+//! View Planning Language: say what to perceive, get the next best view.
+//!
+//! Two halves meet at the compiled rule set ([`rules`]). Left of it a text is
+//! parsed, checked and lowered; right of it a planner runs the rule set on
+//! observations. See `ARCHITECTURE.md`.
+
+pub mod cli;
+pub mod detect;
+pub mod geometry;
+pub mod lang;
+pub mod map;
+pub mod plan;
+pub mod predict;
+pub mod primitives;
+pub mod rules;
+pub mod sense;
+pub mod show;

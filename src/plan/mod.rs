@@ -1,0 +1,1 @@
+//! The planner: statuses, their update after each measurement, the next best view.

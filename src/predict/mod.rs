@@ -1,0 +1,1 @@
+//! Predictors: from measured features to the place of one not yet seen.

@@ -1,0 +1,173 @@
+//! Shapes for scenes, and their deformations.
+
+use super::{Parameter, Primitive, Type};
+use crate::rules::{Colour, Value};
+
+const SIDES: Parameter = Parameter::required("sides", Type::Count, "Sides of the base, 3 to 12.");
+const RADIUS: Parameter = Parameter::required(
+    "radius",
+    Type::Length,
+    "Radius of the circle through the base's corners.",
+);
+const HEIGHT: Parameter = Parameter::required("height", Type::Length, "Height.");
+const STRETCH: Parameter = Parameter::or(
+    "stretch",
+    Type::Number,
+    || Value::Number(1.0),
+    "Factor on the base along x.",
+);
+const LEAN: Parameter = Parameter::or(
+    "lean",
+    Type::Angle,
+    || Value::Angle(0.0),
+    "How far the axis leans towards +x.",
+);
+const DEFORMED: Parameter =
+    Parameter::optional("deformed", Type::List(&Type::Deformation), "Dents, bumps and notches.");
+const BOTTOM: Parameter = Parameter::or(
+    "bottom",
+    Type::Colour,
+    || Value::Colour(Colour([200, 30, 30])),
+    "Colour of the bottom.",
+);
+const SIDE: Parameter = Parameter::or(
+    "side",
+    Type::Colour,
+    || Value::Colour(Colour([30, 160, 50])),
+    "Colour of the sides.",
+);
+const TOP: Parameter = Parameter::or(
+    "top",
+    Type::Colour,
+    || Value::Colour(Colour([200, 200, 200])),
+    "Colour of the top.",
+);
+
+pub(super) const ALL: &[Primitive] = &[
+    Primitive {
+        name: "prism",
+        result: Type::Shape,
+        features: &[],
+        parameters: &[
+            SIDES,
+            RADIUS,
+            HEIGHT,
+            STRETCH,
+            LEAN,
+            Parameter::or(
+                "taper",
+                Type::Angle,
+                || Value::Angle(0.0),
+                "How far each side leans inwards; negative: outwards.",
+            ),
+            DEFORMED,
+            BOTTOM,
+            SIDE,
+            TOP,
+        ],
+        doc: "A prism that stands on its bottom, origin at the centre of its height.\n\nSides are numbered from 1, counter-clockwise from above, side 1 facing +x.",
+    },
+    Primitive {
+        name: "pyramid",
+        result: Type::Shape,
+        features: &[],
+        parameters: &[SIDES, RADIUS, HEIGHT, STRETCH, LEAN, DEFORMED, BOTTOM, SIDE],
+        doc: "A pyramid that stands on its bottom, origin at the centre of its height.",
+    },
+    Primitive {
+        name: "tank",
+        result: Type::Shape,
+        features: &[],
+        parameters: &[
+            Parameter::or("length", Type::Length, || Value::Length(0.90), "Length of the hull."),
+            Parameter::or("width", Type::Length, || Value::Length(0.60), "Width over the tracks."),
+            Parameter::or(
+                "turret",
+                Type::Length,
+                || Value::Length(0.40),
+                "Diameter of the turret.",
+            ),
+            Parameter::or("gun", Type::Length, || Value::Length(0.40), "Length of the gun."),
+            Parameter::or(
+                "colour",
+                Type::Colour,
+                || Value::Colour(Colour([84, 98, 60])),
+                "Colour of the hull.",
+            ),
+        ],
+        doc: "A tank: hull, turret, gun and tracks; the gun points along +x.",
+    },
+    Primitive {
+        name: "mesh",
+        result: Type::Shape,
+        features: &[],
+        parameters: &[
+            Parameter::required(
+                "file",
+                Type::Text,
+                "An STL, OBJ, PLY, glTF or GLB file, relative to the program.",
+            ),
+            Parameter::required(
+                "units",
+                Type::Choice(&["mm", "cm", "m", "in"]),
+                "What one unit of the file is.",
+            ),
+            Parameter::required(
+                "up",
+                Type::Choice(&["x", "y", "z"]),
+                "Which axis of the file points up.",
+            ),
+        ],
+        doc: "A triangle mesh from a file.",
+    },
+    Primitive {
+        name: "dent",
+        result: Type::Deformation,
+        features: &[],
+        parameters: DEFORMATION,
+        doc: "A pocket pressed into a side.",
+    },
+    Primitive {
+        name: "bump",
+        result: Type::Deformation,
+        features: &[],
+        parameters: DEFORMATION,
+        doc: "A block that stands out of a side.",
+    },
+    Primitive {
+        name: "notch",
+        result: Type::Deformation,
+        features: &[],
+        parameters: &[
+            Parameter::required("side", Type::Count, "The side that it is cut into."),
+            Parameter::or(
+                "at",
+                Type::Share,
+                || Value::Share(0.5),
+                "Where along the side its middle lies.",
+            ),
+            Parameter::required("width", Type::Length, "Its width."),
+            Parameter::required("depth", Type::Length, "Its depth."),
+        ],
+        doc: "A groove over the whole height of a side.",
+    },
+];
+
+const DEFORMATION: &[Parameter] = &[
+    Parameter::required("side", Type::Count, "The side; 0 is the bottom."),
+    Parameter::or(
+        "across",
+        Type::Share,
+        || Value::Share(0.5),
+        "Where along the side's width its middle lies.",
+    ),
+    Parameter::or(
+        "up",
+        Type::Share,
+        || Value::Share(0.5),
+        "Where along the side's height its middle lies.",
+    ),
+    Parameter::required("width", Type::Length, "Its width."),
+    Parameter::required("height", Type::Length, "Its height."),
+    Parameter::required("depth", Type::Length, "How far it goes in or out."),
+];

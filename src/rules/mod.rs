@@ -1,0 +1,17 @@
+//! The compiled rule set: the wall between language and planner.
+//!
+//! Plain data in SI units, fully resolved and in a stable order. The language
+//! half writes it, the planning half reads it, and neither sees the other.
+//! Every entry names the place in the source that it came from.
+
+mod artefact;
+mod expr;
+mod library;
+mod scene;
+mod task;
+
+pub use artefact::{FORMAT, Place, ReadError, RuleSet, Source};
+pub use expr::{BadArgument, Call, Colour, Expr, Value};
+pub use library::{Class, Each, Feature, FeatureId, FeatureKind, Library, Presence, Rule};
+pub use scene::{Backdrop, Marker, Scene, SceneObject};
+pub use task::{Goal, Inspected, SensorModel, Space, Task, Thresholds};

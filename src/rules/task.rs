@@ -1,0 +1,123 @@
+//! Tasks: goal, camera, space, candidate views and thresholds.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Call, Place};
+use crate::geometry::{Bounds, Camera, Point, Vector};
+
+/// A perception task.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Task {
+    /// Name.
+    pub name: String,
+    /// Name of its library.
+    pub library: String,
+    /// Expected completion status.
+    pub goal: Goal,
+    /// The sensor.
+    pub camera: Camera,
+    /// The model space.
+    pub space: Space,
+    /// S_v, a views primitive; [`crate::primitives::views`] gives the poses.
+    pub views: Call,
+    /// ξ, ξ_ned, ξ_cfd.
+    pub thresholds: Thresholds,
+    /// Share that G_ovlp asks for.
+    pub overlap: f64,
+    /// The method of choosing views, lower case.
+    pub method: String,
+    /// Most measurements, the first included.
+    pub limit: u32,
+    /// Gains below this many voxels count as none.
+    pub gain_floor: u32,
+    /// How eq. 3 counts a voxel.
+    pub inspected: Inspected,
+    /// Whether every predicted feature of the winning class must be inspected
+    /// before the class counts as confident.
+    pub verify: bool,
+    /// How measurements change a voxel.
+    pub sensor_model: SensorModel,
+    /// Where it was declared.
+    pub place: Place,
+}
+
+/// The parts of the completion status that must be reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Goal {
+    /// s_cfd.
+    pub confident: bool,
+    /// s_ail.
+    pub exhausted: bool,
+}
+
+/// The model space: an axis-aligned box of cubic voxels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Space {
+    /// Centre, metres.
+    pub centre: Point,
+    /// Full extents, metres.
+    pub size: Vector,
+    /// Edge of a voxel, metres.
+    pub voxel: f64,
+}
+
+impl Space {
+    /// The box.
+    pub fn bounds(&self) -> Bounds {
+        Bounds::centred(self.centre, self.size)
+    }
+}
+
+/// ξ, ξ_ned, ξ_cfd.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Thresholds {
+    /// ξ, metres.
+    pub near: f64,
+    /// ξ_ned, a share of the predicted voxels.
+    pub absent: f64,
+    /// ξ_cfd, a probability.
+    pub confidence: f64,
+}
+
+/// When a predicted voxel counts as inspected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Inspected {
+    /// Eq. 3 to the letter: an observed point lies within ξ.
+    NearPoint,
+    /// An observed point lies within ξ, or the voxel was observed free.
+    Observed,
+}
+
+/// OctoMap's sensor model, in probabilities.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SensorModel {
+    /// P(occupied) after one hit.
+    pub hit: f64,
+    /// P(occupied) after one miss.
+    pub miss: f64,
+    /// Lower clamp.
+    pub clamp_min: f64,
+    /// Upper clamp.
+    pub clamp_max: f64,
+    /// Occupied from this probability on.
+    pub occupied: f64,
+}
+
+impl Default for SensorModel {
+    /// OctoMap's shipped values (Hornung et al. 2013).
+    fn default() -> Self {
+        Self {
+            hit: 0.7,
+            miss: 0.4,
+            clamp_min: 0.1192,
+            clamp_max: 0.971,
+            occupied: 0.5,
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! What a run shows: the run log, progress on a terminal, summaries.
