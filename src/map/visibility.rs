@@ -125,10 +125,13 @@ impl Line {
                 (enter, axis, borders) = (time, k, first);
             }
         }
+        if enter >= line.leave {
+            return None;
+        }
         if enter > 0.0 {
             line.jump(axis, borders, enter);
         }
-        (enter < line.leave).then_some(line)
+        Some(line)
     }
 
     /// Borders crossed on reaching the cells from `low` to before `high`, and
