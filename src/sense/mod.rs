@@ -14,7 +14,7 @@ mod raster;
 pub mod shapes;
 mod simulator;
 
-pub use coverage::Coverage;
+pub use coverage::{Coverage, least_views};
 pub use error::SceneError;
 pub use mesh::{Axis, Mesh, MeshError, MeshOptions, MeshWarning, Paint, Texture, Units};
 pub use noise::{Noise, UnknownNoise};

@@ -104,6 +104,11 @@ impl<'a> Visibility<'a> {
         Some((1.0 / self.inverse[k], cosine as f32))
     }
 
+    /// z-depth of pixel `k`, metres; `None` where nothing is hit.
+    pub(super) fn depth(&self, k: usize) -> Option<f32> {
+        (self.slots[k] != NOTHING).then(|| 1.0 / self.inverse[k])
+    }
+
     /// The triangle that pixel `k` shows, and whether its front face.
     pub(super) fn triangle(&self, k: usize) -> Option<(u32, bool)> {
         let facet = self.facets.get(self.slots[k] as usize)?;
