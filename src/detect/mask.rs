@@ -232,7 +232,7 @@ mod tests {
         rectangle(&mut with_notch, 5..55, 5..15);
         rectangle(&mut with_notch, 5..25, 15..35);
         rectangle(&mut with_notch, 30..55, 15..35);
-        assert!(mask.bridged(4.0).at(27, 20) && mask.bridged(4.0).at(27, 6));
-        assert!(!with_notch.bridged(4.0).at(27, 30));
+        assert!(mask.bridged(6.0).at(27, 20) && mask.bridged(6.0).at(27, 6));
+        assert!(!with_notch.bridged(6.0).at(27, 30));
     }
 }

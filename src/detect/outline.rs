@@ -90,7 +90,7 @@ fn traced(flat: &[Point2<f64>], cell: f64, grain: f64) -> Option<Vec<Point2<f64>
         mask.set((at.x + margin) as usize, (at.y + margin) as usize);
     }
     let closing = (0.75 * grain / cell).max(1.5);
-    let face = mask.closed(closing).bridged(WIDEST_GAP / 2.0 / cell).largest();
+    let face = mask.closed(closing).bridged(WIDEST_GAP / cell).largest();
     let corners = face.contour();
     let metres = |(x, y): &(f64, f64)| low + nalgebra::Vector2::new(x - margin, y - margin) * cell;
     // Midpoints of cell sides lie closer to the true border than their ends.
