@@ -30,10 +30,16 @@ const BOTTOM: Parameter = Parameter::or(
     || Value::Colour(Colour([200, 30, 30])),
     "Colour of the bottom.",
 );
-const SIDE: Parameter = Parameter::or(
+const GREEN_SIDE: Parameter = Parameter::or(
     "side",
     Type::Colour,
     || Value::Colour(Colour([30, 160, 50])),
+    "Colour of the sides.",
+);
+const BLUE_SIDE: Parameter = Parameter::or(
+    "side",
+    Type::Colour,
+    || Value::Colour(Colour([40, 70, 200])),
     "Colour of the sides.",
 );
 const TOP: Parameter = Parameter::or(
@@ -62,7 +68,7 @@ pub(super) const ALL: &[Primitive] = &[
             ),
             DEFORMED,
             BOTTOM,
-            SIDE,
+            GREEN_SIDE,
             TOP,
         ],
         doc: "A prism that stands on its bottom, origin at the centre of its height.\n\nSides are numbered from 1, counter-clockwise from above, side 1 facing +x.",
@@ -71,7 +77,7 @@ pub(super) const ALL: &[Primitive] = &[
         name: "pyramid",
         result: Type::Shape,
         features: &[],
-        parameters: &[SIDES, RADIUS, HEIGHT, STRETCH, LEAN, DEFORMED, BOTTOM, SIDE],
+        parameters: &[SIDES, RADIUS, HEIGHT, STRETCH, LEAN, DEFORMED, BOTTOM, BLUE_SIDE],
         doc: "A pyramid that stands on its bottom, origin at the centre of its height.",
     },
     Primitive {
@@ -84,10 +90,10 @@ pub(super) const ALL: &[Primitive] = &[
             Parameter::or(
                 "turret",
                 Type::Length,
-                || Value::Length(0.40),
+                || Value::Length(0.44),
                 "Diameter of the turret.",
             ),
-            Parameter::or("gun", Type::Length, || Value::Length(0.40), "Length of the gun."),
+            Parameter::or("gun", Type::Length, || Value::Length(0.35), "Length of the gun."),
             Parameter::or(
                 "colour",
                 Type::Colour,
@@ -95,7 +101,7 @@ pub(super) const ALL: &[Primitive] = &[
                 "Colour of the hull.",
             ),
         ],
-        doc: "A tank: hull, turret, gun and tracks; the gun points along +x.",
+        doc: "A tank: hull, turret, gun and tracks; the gun points along +x.\n\nThe origin lies on the ground under the hull's middle, +y is its left. Heights go with the width. The default has flat places for seven 276 mm plates: front, rear, two on each skirt, rear deck and turret roof.",
     },
     Primitive {
         name: "mesh",
@@ -107,15 +113,15 @@ pub(super) const ALL: &[Primitive] = &[
                 Type::Text,
                 "An STL, OBJ, PLY, glTF or GLB file, relative to the program.",
             ),
-            Parameter::required(
+            Parameter::optional(
                 "units",
                 Type::Choice(&["mm", "cm", "m", "in"]),
-                "What one unit of the file is.",
+                "What one unit of the file is; glTF says so itself.",
             ),
-            Parameter::required(
+            Parameter::optional(
                 "up",
                 Type::Choice(&["x", "y", "z"]),
-                "Which axis of the file points up.",
+                "Which axis of the file points up; glTF says so itself.",
             ),
         ],
         doc: "A triangle mesh from a file.",
@@ -125,14 +131,14 @@ pub(super) const ALL: &[Primitive] = &[
         result: Type::Deformation,
         features: &[],
         parameters: DEFORMATION,
-        doc: "A pocket pressed into a side.",
+        doc: "A pocket pressed into a side; its walls lean 8° from the side's normal.",
     },
     Primitive {
         name: "bump",
         result: Type::Deformation,
         features: &[],
         parameters: DEFORMATION,
-        doc: "A block that stands out of a side.",
+        doc: "A block that stands out of a side; its walls lean 8° from the side's normal.",
     },
     Primitive {
         name: "notch",
@@ -149,7 +155,7 @@ pub(super) const ALL: &[Primitive] = &[
             Parameter::required("width", Type::Length, "Its width."),
             Parameter::required("depth", Type::Length, "Its depth."),
         ],
-        doc: "A groove over the whole height of a side.",
+        doc: "A groove over the whole height of a side; on a pyramid it narrows towards the apex.",
     },
 ];
 

@@ -1,0 +1,122 @@
+//! The built-in simulator: one object before a backdrop, seen by an RGB-D camera.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::error::SceneError;
+use super::noise::{Noise, Reading};
+use super::raster::{self, Visibility};
+use super::{DepthImage, Mesh, Observation, shapes};
+use crate::geometry::{Bounds, Camera, Point, Pose, Vector};
+use crate::rules::{Backdrop, SceneObject, Space};
+
+/// A scene that can be observed from anywhere.
+#[derive(Clone, Debug)]
+pub struct Simulator {
+    mesh: Mesh,
+    backdrop: Option<Backdrop>,
+    space: Space,
+}
+
+impl Simulator {
+    /// The scene of an object with its markers. `base` is the folder that mesh
+    /// paths are relative to.
+    ///
+    /// # Errors
+    /// The shape, a marker or the mesh file is unusable.
+    pub fn new(
+        object: &SceneObject,
+        backdrop: Option<Backdrop>,
+        space: &Space,
+        base: &Path,
+    ) -> Result<Self, SceneError> {
+        let mut mesh = shapes::mesh(&object.shape, base)?;
+        for marker in &object.markers {
+            mesh.append(shapes::plate(marker)?);
+        }
+        Ok(Self::from_mesh(mesh, object.world_from_object, backdrop, space))
+    }
+
+    /// The scene of a mesh placed by `world_from_object`.
+    pub fn from_mesh(mesh: Mesh, world_from_object: Pose, backdrop: Option<Backdrop>, space: &Space) -> Self {
+        Self {
+            mesh: mesh.moved(&world_from_object),
+            backdrop,
+            space: *space,
+        }
+    }
+
+    /// The object, world axes.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The model space.
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// The box around the object, world axes.
+    pub fn bounds(&self) -> Bounds {
+        self.mesh.bounds()
+    }
+
+    /// Whether a point lies inside the object. By winding number, so holes in
+    /// the mesh and parts that overlap do no harm.
+    pub fn contains(&self, eye: &Point) -> bool {
+        self.bounds().contains(eye) && self.mesh.winding_number(eye) > 0.5
+    }
+
+    /// What a camera measures. `n` is the number of the view in its run; with
+    /// `seed` it fixes the noise. Surfaces out of range give no reading.
+    pub fn observe(&self, camera: &Camera, world_from_camera: &Pose, noise: Noise, seed: u64, n: u32) -> Observation {
+        let drawn = Visibility::of(&self.mesh, &camera.colour, world_from_camera);
+        Observation {
+            camera: *camera,
+            world_from_camera: *world_from_camera,
+            colour: raster::shade(&drawn, self.backdrop_seen(world_from_camera), world_from_camera),
+            depth: self.depth(camera, world_from_camera, noise, seed, n),
+        }
+    }
+
+    /// The depth image of [`Simulator::observe`] alone.
+    pub fn depth(&self, camera: &Camera, world_from_camera: &Pose, noise: Noise, seed: u64, n: u32) -> DepthImage {
+        let image = camera.depth;
+        let seen = Visibility::of(&self.mesh, &image, world_from_camera);
+        let backdrop = self.backdrop_seen(world_from_camera);
+        let width = image.width as usize;
+        let readings: Vec<Reading> = (0..image.pixels())
+            .into_par_iter()
+            .map(|k| {
+                let (depth, cosine) = seen.surface(k).or_else(|| {
+                    let ray: Vector = image.ray((k % width) as f64 + 0.5, (k / width) as f64 + 0.5);
+                    backdrop?.hit(&ray).map(|(z, cosine)| (z as f32, cosine as f32))
+                })?;
+                camera
+                    .range
+                    .contains(f64::from(depth))
+                    .then_some(Reading { depth, cosine })
+            })
+            .map(|reading| reading.unwrap_or(Reading::NONE))
+            .collect();
+        DepthImage {
+            width: image.width,
+            height: image.height,
+            metres: noise.apply(&readings, image.width, camera.range, seed, n),
+        }
+    }
+
+    /// The noise-free depth of the object alone, with the triangle of each pixel.
+    pub(super) fn visibility(&self, camera: &Camera, world_from_camera: &Pose) -> Visibility<'_> {
+        Visibility::of(&self.mesh, &camera.depth, world_from_camera)
+    }
+
+    fn backdrop_seen(&self, world_from_camera: &Pose) -> Option<raster::Backdrop> {
+        self.backdrop.map(|b| raster::Backdrop {
+            centre: world_from_camera.inverse_transform_point(&self.space.centre),
+            radius: b.radius,
+            colour: b.colour.0,
+        })
+    }
+}
