@@ -1,73 +1,77 @@
 //! Detectors and measures: from pixels and depth to features.
+//!
+//! [`Scan`] prepares a view once, [`detect`] finds what a rule asks for in it,
+//! [`measure`] turns what was found into attributes. Everything is judged from
+//! the images alone; where a detector can be expected to succeed is declared
+//! in `primitives`.
+
+mod beside;
+mod cloud;
+mod colour;
+mod contour;
+mod evidence;
+mod faces;
+mod instance;
+mod join;
+mod marker;
+mod mask;
+mod normals;
+mod outline;
+mod plane_fit;
+mod qr;
+mod scan;
+mod segment;
+#[cfg(test)]
+mod tests;
+
+pub use evidence::{Evidence, FaceEvidence, Look, MarkerEvidence};
+pub use instance::Measurement;
+pub use scan::Scan;
 
 use crate::geometry::Point;
-use crate::geometry::{Polygon, Pose};
 use crate::map::Map;
 use crate::primitives::Arguments;
-use crate::rules::{BadArgument, Space};
-use crate::sense::Observation;
+use crate::rules::{BadArgument, Colour};
+use outline::Begin;
 
-/// An observation prepared for detection: clipped to the space, with normals
-/// and planar regions found once for all rules.
-pub struct Scan {
-    _todo: (),
-}
-
-/// What a detector found, kept so that views of one feature can be merged.
-#[derive(Clone, Debug)]
-pub enum Evidence {
-    /// Points of a planar face.
-    Face(FaceEvidence),
-    /// Looks at a marker.
-    Marker(MarkerEvidence),
-}
-
-/// Points of a planar face.
-#[derive(Clone, Debug)]
-pub struct FaceEvidence {
-    /// Measured points, world axes.
-    pub points: Vec<Point>,
-}
-
-/// Looks at a marker.
-#[derive(Clone, Debug)]
-pub struct MarkerEvidence {
-    /// `world_from_marker` of each look.
-    pub looks: Vec<Pose>,
-}
-
-/// The attributes of a measured instance.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Measurement {
-    /// A planar face.
-    Face(Polygon),
-    /// A marker.
-    Marker {
-        /// `world_from_marker`: x right, y up on the print, z out of it.
-        pose: Pose,
-        /// Edge of the square of modules, metres.
-        size: f64,
-    },
-    /// The faces of a rough shape.
-    Shell(Vec<Polygon>),
-}
-
-#[allow(unused_variables)]
-impl Scan {
-    /// Prepares an observation.
-    pub fn new(observation: &Observation, space: &Space) -> Self {
-        todo!()
+/// proof() of a polygon or marker rule on one view: every instance it finds,
+/// the surest first.
+///
+/// # Errors
+/// `primitive` is no detector of single views, or an argument is missing or of another type.
+pub fn detect(primitive: &str, arguments: &Arguments, scan: &Scan) -> Result<Vec<Evidence>, BadArgument> {
+    let face = |found: Vec<FaceEvidence>| found.into_iter().map(Evidence::Face).collect();
+    match primitive {
+        "planar_region" => Ok(face(faces::planar_region(
+            scan,
+            colour(arguments)?,
+            arguments.length("smallest")?,
+        ))),
+        "plane_beside" => {
+            let dihedral = beside::Dihedral {
+                angle: arguments.angle("dihedral")?,
+                within: arguments.angle("within")?,
+            };
+            Ok(face(beside::plane_beside(
+                scan,
+                &arguments.edge("edge")?,
+                dihedral,
+                colour(arguments)?,
+            )))
+        }
+        "qr" => {
+            let found = qr::qr(scan, arguments.text("text")?, arguments.length("size")?);
+            Ok(found.into_iter().map(Evidence::Marker).collect())
+        }
+        other => Err(BadArgument::new(other, "a detector of single views")),
     }
 }
 
-/// proof() of a polygon or marker rule on one view: every instance it finds.
-#[allow(unused_variables)]
-pub fn detect(primitive: &str, arguments: &Arguments, scan: &Scan) -> Result<Vec<Evidence>, BadArgument> {
-    todo!()
-}
-
-/// proof() of a shell rule: whether enough of its predicted surface was measured.
-#[allow(unused_variables)]
+/// proof() of a shell rule: whether at least `share` of the predicted points
+/// have a measured point within twice `near` metres. Nothing predicted is not proven.
+///
+/// # Errors
+/// `primitive` is no detector of shells, or an argument is missing or of another type.
 pub fn shell_proven(
     primitive: &str,
     arguments: &Arguments,
@@ -75,38 +79,60 @@ pub fn shell_proven(
     map: &Map,
     near: f64,
 ) -> Result<bool, BadArgument> {
-    todo!()
+    if primitive != "mostly_seen" {
+        return Err(BadArgument::new(primitive, "a detector of shells"));
+    }
+    let share = arguments.share("share")?;
+    let seen = predicted.iter().filter(|p| map.measured_within(p, 2.0 * near)).count();
+    Ok(!predicted.is_empty() && seen as f64 >= share * predicted.len() as f64)
 }
 
-/// cal(): the attributes of what was found; `None` where the evidence is too poor.
-#[allow(unused_variables)]
+/// cal(): the attributes of what was found; `None` where the evidence is too
+/// poor or of another kind. A shell has no evidence of its own: its measure is
+/// [`Measurement::Shell`] of its predicted faces.
+///
+/// # Errors
+/// `primitive` is no measure, or an argument is missing or of another type.
 pub fn measure(
     primitive: &str,
     arguments: &Arguments,
     evidence: &Evidence,
 ) -> Result<Option<Measurement>, BadArgument> {
-    todo!()
-}
-
-#[allow(unused_variables)]
-impl Evidence {
-    /// Adds another view's evidence of the same instance.
-    pub fn merge(&mut self, other: Evidence) {
-        todo!()
+    match (primitive, evidence) {
+        ("outline", Evidence::Face(face)) => {
+            let first = if arguments.has("first") {
+                Some(arguments.edge("first")?)
+            } else {
+                None
+            };
+            let polygon = outline::outline(face, begin(arguments)?, first.as_ref());
+            Ok(polygon.map(Measurement::Face))
+        }
+        ("marker_pose", Evidence::Marker(marker)) => Ok(marker::marker_pose(marker).map(|pose| Measurement::Marker {
+            pose,
+            size: marker.size,
+        })),
+        ("outline" | "marker_pose" | "rough_shape", _) => Ok(None),
+        (other, _) => Err(BadArgument::new(other, "a measure")),
     }
 }
 
-#[allow(unused_variables)]
-impl Measurement {
-    /// Whether two measurements are of one instance: the polygons overlap by
-    /// half of the smaller within 2 ξ and 15°.
-    pub fn same_instance(&self, other: &Measurement, near: f64) -> bool {
-        todo!()
+fn colour(arguments: &Arguments) -> Result<Option<Colour>, BadArgument> {
+    if arguments.has("colour") {
+        arguments.colour("colour").map(Some)
+    } else {
+        Ok(None)
     }
+}
 
-    /// Whether an antecedent moved so far that predictions from it must be
-    /// made anew: a vertex or the marker's centre by more than `distance` metres.
-    pub fn moved(&self, from: &Measurement, distance: f64) -> bool {
-        todo!()
+fn begin(arguments: &Arguments) -> Result<Begin, BadArgument> {
+    if !arguments.has("begin") {
+        return Ok(Begin::Any);
+    }
+    match arguments.text("begin")? {
+        "any" => Ok(Begin::Any),
+        "lowest" => Ok(Begin::Base),
+        "apex" => Ok(Begin::Apex),
+        _ => Err(BadArgument::new("begin", "`any`, `lowest` or `apex`")),
     }
 }

@@ -1,1 +1,130 @@
 //! Predictors: from measured features to the place of one not yet seen.
+//!
+//! One file a primitive. Each takes evaluated arguments and gives polygons with
+//! outward normals. Degenerate input (no length, no area, nothing finite) gives
+//! no prediction. Which voxels a prediction covers is `plan`'s business.
+
+mod behind;
+mod completed_square;
+mod prism_over;
+mod pyramid_over;
+mod rectangle_on;
+mod rigid_marker;
+mod triangle_to;
+
+use crate::geometry::{Point, Polygon};
+use crate::primitives::Arguments;
+use crate::rules::BadArgument;
+
+/// Where a feature must be: polygons in world axes, metres, normals outward.
+///
+/// A face has one polygon, a marker the square of its plate, a shell all faces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prediction {
+    /// The faces.
+    pub polygons: Vec<Polygon>,
+}
+
+type Predictor = fn(&Arguments) -> Result<Option<Prediction>, BadArgument>;
+type PointOf = fn(&Arguments) -> Result<Option<Point>, BadArgument>;
+
+const PREDICTORS: &[(&str, Predictor)] = &[
+    ("rectangle_on", rectangle_on::predict),
+    ("triangle_to", triangle_to::predict),
+    ("completed_square", completed_square::predict),
+    ("prism_over", prism_over::predict),
+    ("pyramid_over", pyramid_over::predict),
+    ("rigid_marker", rigid_marker::predict),
+];
+
+const POINTS: &[(&str, PointOf)] = &[("behind", behind::point)];
+
+/// pred(): the place of a rule's consequent; `None` where the arguments are degenerate.
+///
+/// # Errors
+/// `primitive` is no predictor, or an argument is missing or of another kind.
+pub fn predict(primitive: &str, arguments: &Arguments) -> Result<Option<Prediction>, BadArgument> {
+    match PREDICTORS.iter().find(|(name, _)| *name == primitive) {
+        Some((_, function)) => function(arguments),
+        None => Err(BadArgument::new(primitive, "a predictor")),
+    }
+}
+
+/// The point that a point primitive gives; `None` where the arguments are degenerate.
+///
+/// # Errors
+/// `primitive` gives no point, or an argument is missing or of another kind.
+pub fn point(primitive: &str, arguments: &Arguments) -> Result<Option<Point>, BadArgument> {
+    match POINTS.iter().find(|(name, _)| *name == primitive) {
+        Some((_, function)) => function(arguments),
+        None => Err(BadArgument::new(primitive, "a primitive that gives a point")),
+    }
+}
+
+impl Prediction {
+    fn of(polygon: Option<Polygon>) -> Option<Self> {
+        polygon.map(|p| Self { polygons: vec![p] })
+    }
+}
+
+/// A length that something can be built on.
+fn positive(length: f64) -> bool {
+    length.is_finite() && length > 1e-9
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::primitives::{Type, all};
+
+    #[test]
+    fn every_declared_predictor_and_point_has_one_function() {
+        let declared = |ty: Type| -> Vec<&str> { all().filter(|p| p.result == ty).map(|p| p.name).collect() };
+        let predictors: Vec<&str> = PREDICTORS.iter().map(|(name, _)| *name).collect();
+        let points: Vec<&str> = POINTS.iter().map(|(name, _)| *name).collect();
+        assert_eq!(predictors, declared(Type::Predictor));
+        assert_eq!(points, declared(Type::Point));
+    }
+
+    #[test]
+    fn a_missing_argument_is_an_error_and_no_panic() {
+        for (name, function) in PREDICTORS {
+            assert!(function(&Arguments::default()).is_err(), "`{name}`");
+        }
+        assert!(predict("outline", &Arguments::default()).is_err());
+    }
+}
+
+#[cfg(test)]
+mod fixtures {
+    use crate::geometry::{Edge, Point, Polygon, Vector};
+    use crate::primitives::{Arguments, Datum};
+    use crate::rules::Value;
+
+    pub fn arguments<const N: usize>(pairs: [(&str, Datum); N]) -> Arguments {
+        Arguments(
+            pairs
+                .into_iter()
+                .map(|(name, datum)| (name.to_owned(), datum))
+                .collect(),
+        )
+    }
+
+    pub fn length(metres: f64) -> Datum {
+        Datum::Constant(Value::Length(metres))
+    }
+
+    /// A unit square at z = 0 that faces down.
+    pub fn bottom() -> Polygon {
+        let corners = [(0., 0.), (0., 1.), (1., 1.), (1., 0.)];
+        Polygon::new(corners.map(|(x, y)| Point::new(x, y, 0.0)).to_vec()).unwrap()
+    }
+
+    /// An edge of [`bottom`] along +x at y = 1; the object lies to its −y side.
+    pub fn far_edge() -> Edge {
+        let edge = bottom().edge(1);
+        assert_eq!((edge.start, edge.end), (Point::new(0., 1., 0.), Point::new(1., 1., 0.)));
+        assert!((edge.inward() + Vector::y()).norm() < 1e-12);
+        edge
+    }
+}

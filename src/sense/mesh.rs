@@ -109,7 +109,8 @@ impl Mesh {
     pub fn append(&mut self, other: Mesh) {
         let (vertex, image) = (self.vertices.len() as u32, self.textures.len() as u32);
         self.vertices.extend(other.vertices);
-        self.triangles.extend(other.triangles.iter().map(|t| t.map(|i| i + vertex)));
+        self.triangles
+            .extend(other.triangles.iter().map(|t| t.map(|i| i + vertex)));
         self.textures.extend(other.textures);
         self.paints.extend(other.paints.into_iter().map(|p| match p {
             Paint::Image { texture, uv, tint } => Paint::Image {
@@ -135,7 +136,9 @@ impl Mesh {
         let mut welded: HashMap<[u64; 3], u32> = HashMap::new();
         let mut name = |p: &Point| {
             let next = welded.len() as u32;
-            *welded.entry([p.x, p.y, p.z].map(|c| (c + 0.0).to_bits())).or_insert(next)
+            *welded
+                .entry([p.x, p.y, p.z].map(|c| (c + 0.0).to_bits()))
+                .or_insert(next)
         };
         let mut balance: HashMap<(u32, u32), i64> = HashMap::new();
         for k in 0..self.triangles.len() {

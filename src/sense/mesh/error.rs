@@ -105,7 +105,13 @@ fn in_each_unit(extents: &Vector) -> String {
         .iter()
         .map(|unit| {
             let e = extents * unit.metres();
-            format!("`units: {}` gives {:.4} by {:.4} by {:.4} m", unit.name(), e.x, e.y, e.z)
+            format!(
+                "`units: {}` gives {:.4} by {:.4} by {:.4} m",
+                unit.name(),
+                e.x,
+                e.y,
+                e.z
+            )
         })
         .collect::<Vec<_>>()
         .join(", ")

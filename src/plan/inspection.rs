@@ -1,0 +1,163 @@
+//! Predicted voxels and which of them have been inspected (eqs. 3 and 6).
+//!
+//! PV_ij is every voxel that contains a sample of the predicted polygons. A
+//! voxel x of it is *inspected* when there is evidence about x, and some
+//! visited view was a look at x that counts:
+//!
+//! - evidence: a measured point lies within ξ of its centre, or (setting
+//!   `observed`) it was measured free;
+//! - a look: x is inside the images, the depth range and the detector's
+//!   envelope, and not hidden. An occupied voxel within ξ of x does not hide
+//!   it, for by eq. 3 a point that near inspects it: a surface measured just in
+//!   front of its predicted place would otherwise hide that place for ever.
+//!
+//! A detector that needs the feature whole counts a look only when at least
+//! ξ_ned of PV_ij passes all of this in that one view. A voxel of several
+//! polygons (an edge of a shell) is seen when any of them faces the view.
+//!
+//! Whether something hid a voxel is decided when the view is taken, and for all
+//! visited views anew when a prediction is made or replaced.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::viewpoint::Viewpoint;
+use super::world::World;
+use crate::geometry::{Point, Polygon, Vector};
+use crate::map::{Grid, Occupancy, Voxel};
+use crate::primitives::Envelope;
+use crate::rules::{Inspected, Task};
+
+/// A voxel of PV_ij.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PredictedVoxel {
+    /// The voxel.
+    pub voxel: Voxel,
+    /// Its centre, metres.
+    pub centre: Point,
+    /// Outward normals of the polygons with a sample in it.
+    pub normals: Vec<Vector>,
+}
+
+/// What decides about inspection, out of a task.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Criteria {
+    /// ξ, metres.
+    pub near: f64,
+    /// ξ_ned, a share.
+    pub absent: f64,
+    /// How eq. 3 counts a voxel.
+    pub inspected: Inspected,
+}
+
+impl From<&Task> for Criteria {
+    fn from(task: &Task) -> Self {
+        Self {
+            near: task.thresholds.near,
+            absent: task.thresholds.absent,
+            inspected: task.inspected,
+        }
+    }
+}
+
+/// PV_ij: the voxels that contain a sample of the polygons, samples at most
+/// half a voxel apart, ascending.
+///
+/// Empty, and so no prediction, where the polygons lie outside the grid or
+/// reach further than its diagonal beyond it.
+pub fn predicted_voxels(polygons: &[Polygon], grid: &Grid) -> Vec<PredictedVoxel> {
+    let mut normals: BTreeMap<Voxel, Vec<Vector>> = BTreeMap::new();
+    for polygon in polygons.iter().filter(|p| within_reach(p, grid)) {
+        let samples = polygon.samples(grid.voxel / 2.0);
+        let voxels: BTreeSet<Voxel> = samples.iter().filter_map(|p| grid.containing(p)).collect();
+        for voxel in voxels {
+            normals.entry(voxel).or_default().push(polygon.normal());
+        }
+    }
+    let predicted = |(voxel, normals)| PredictedVoxel {
+        voxel,
+        centre: grid.centre(voxel),
+        normals,
+    };
+    normals.into_iter().map(predicted).collect()
+}
+
+/// Bounds the number of samples: no use comes of a polygon far outside.
+fn within_reach(polygon: &Polygon, grid: &Grid) -> bool {
+    let extent = Vector::from(grid.size.map(f64::from)) * grid.voxel;
+    let centre = grid.origin + extent / 2.0;
+    let reach = 1.5 * extent.norm();
+    polygon.vertices().iter().all(|v| (v - centre).norm() <= reach)
+}
+
+/// The voxels that a prediction tags (eq. 6): unknown now and within `near` of
+/// PV_ij, centre to centre, ascending.
+pub fn tagged<W: World + ?Sized>(world: &W, voxels: &[PredictedVoxel], near: f64) -> Vec<Voxel> {
+    let grid = world.grid();
+    let offsets = offsets_within(near / grid.voxel);
+    let mut around = BTreeSet::new();
+    for predicted in voxels {
+        let [x, y, z] = grid.cell(predicted.voxel);
+        around.extend(offsets.iter().filter_map(|[i, j, k]| grid.at([x + i, y + j, z + k])));
+    }
+    around.retain(|v| world.occupancy(*v) == Occupancy::Unknown);
+    around.into_iter().collect()
+}
+
+/// Integer offsets no longer than `radius` cells, the border included.
+fn offsets_within(radius: f64) -> Vec<[i64; 3]> {
+    let reach = radius.clamp(0.0, 64.0).floor() as i64;
+    let steps = || -reach..=reach;
+    let cube = steps().flat_map(|i| steps().flat_map(move |j| steps().map(move |k| [i, j, k])));
+    let squared = radius * radius + 1e-9;
+    cube.filter(|o| o.iter().map(|c| (c * c) as f64).sum::<f64>() <= squared)
+        .collect()
+}
+
+/// Which of the predicted voxels are reachable from a view: inside the images,
+/// the depth range and the envelope, and not hidden. Only those that `wanted`
+/// names by their index are tested.
+pub fn reachable<W: World + ?Sized>(
+    world: &W,
+    view: &Viewpoint,
+    voxels: &[PredictedVoxel],
+    envelope: &Envelope,
+    near: f64,
+    wanted: impl Fn(usize) -> bool,
+) -> Vec<bool> {
+    let sees = |v: &PredictedVoxel| {
+        let faces = |n: &Vector| view.could_detect(&v.centre, n, envelope);
+        v.normals.iter().any(faces) && world.visible(view.eye(), v.voxel, near)
+    };
+    voxels.iter().enumerate().map(|(k, v)| wanted(k) && sees(v)).collect()
+}
+
+/// Which of the predicted voxels there is evidence about.
+pub fn evidence<W: World + ?Sized>(world: &W, voxels: &[PredictedVoxel], criteria: &Criteria) -> Vec<bool> {
+    let free_counts = criteria.inspected == Inspected::Observed;
+    let known = |v: &PredictedVoxel| {
+        free_counts && world.occupancy(v.voxel) == Occupancy::Free || world.measured_within(&v.centre, criteria.near)
+    };
+    voxels.iter().map(known).collect()
+}
+
+/// Which of the predicted voxels are inspected, given what each visited view
+/// reached of them (one row a view) and the evidence about them.
+pub fn inspected(looks: &[Vec<bool>], evidence: &[bool], whole: bool, absent: f64) -> Vec<bool> {
+    let mut done = vec![false; evidence.len()];
+    for look in looks {
+        let passed = |k: usize| look[k] && evidence[k];
+        let count = (0..evidence.len()).filter(|k| passed(*k)).count();
+        if whole && !reaches(count, evidence.len(), absent) {
+            continue;
+        }
+        for (k, done) in done.iter_mut().enumerate() {
+            *done |= passed(k);
+        }
+    }
+    done
+}
+
+/// Whether `count` of `total` is at least a share; nothing of nothing is not.
+pub fn reaches(count: usize, total: usize, share: f64) -> bool {
+    total > 0 && count as f64 >= share * total as f64 - 1e-9
+}

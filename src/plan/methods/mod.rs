@@ -1,0 +1,125 @@
+//! Methods of choosing the next view: one file each, and one line in the list.
+//!
+//! A method sees the situation after a measurement and names a view. When to
+//! stop is not its business.
+
+mod gn;
+mod gno;
+mod random;
+
+use rand_pcg::Pcg64;
+
+use super::error::PlanError;
+use super::knowledge::Knowledge;
+use super::score::{self, Gains, OverlapParts};
+use super::status::Status;
+use super::viewpoint::Viewpoint;
+use super::world::World;
+use crate::geometry::Point;
+
+/// A way of choosing views.
+pub trait Method: Sync {
+    /// Its name, lower case.
+    fn name(&self) -> &'static str;
+    /// The next view; `None` where no unvisited view is left.
+    fn choose(&self, situation: &Situation<'_>, random: &mut Pcg64) -> Option<Choice>;
+}
+
+/// All methods.
+const METHODS: &[&dyn Method] = &[&gn::Gn, &gno::Gno, &random::Random];
+
+/// What a method chooses by.
+pub struct Situation<'a> {
+    /// The measured space.
+    pub world: &'a dyn World,
+    /// Library and task.
+    pub knowledge: &'a Knowledge,
+    /// Features, classes and visited views.
+    pub status: &'a Status,
+    /// All candidate views.
+    pub candidates: &'a [Viewpoint],
+    /// The gains of the unvisited ones.
+    pub gains: &'a Gains,
+    /// Where the camera stands.
+    pub current: Point,
+}
+
+/// A view and why it was chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice {
+    /// Position in [`Gains::views`].
+    pub position: usize,
+    /// The method's value of it; eq. 8 for GN and GNO.
+    pub score: f64,
+    /// G_ovlp.
+    pub overlap: bool,
+    /// Whether every view with gain failed the overlap constraint.
+    pub relaxed: bool,
+}
+
+/// The method of a name, case-insensitively.
+///
+/// # Errors
+/// There is none; the message lists those there are.
+pub fn method(name: &str) -> Result<&'static dyn Method, PlanError> {
+    let known = METHODS.iter().find(|m| m.name().eq_ignore_ascii_case(name));
+    known.copied().ok_or_else(|| PlanError::UnknownMethod {
+        name: name.to_owned(),
+        known: names().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", "),
+    })
+}
+
+/// The names of all methods.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    METHODS.iter().map(|m| m.name())
+}
+
+impl Situation<'_> {
+    /// Positions of the unvisited views that gain something.
+    pub fn gaining(&self) -> Vec<usize> {
+        let positions = 0..self.gains.views.len();
+        positions.filter(|k| self.gains.total(*k) > 0.0).collect()
+    }
+
+    /// The share that G_ovlp judges, for each of some positions.
+    pub fn overlaps(&self, positions: &[usize]) -> Vec<f64> {
+        use rayon::prelude::*;
+        let parts = OverlapParts::of(self.world, self.status);
+        let near = self.knowledge.criteria.near;
+        let share = |k: &usize| score::overlap_share(self.world, self.view(*k), &parts, near);
+        positions.par_iter().map(share).collect()
+    }
+
+    /// The position of the largest value; of equals the nearest to the current
+    /// view, then the lowest index. Values come in the order of positions.
+    pub fn best(&self, values: impl IntoIterator<Item = (usize, f64)>) -> Option<(usize, f64)> {
+        values.into_iter().reduce(|best, next| {
+            let nearer = || self.distance(next.0) < self.distance(best.0);
+            let better = next.1 > best.1 || (next.1 >= best.1 && nearer());
+            if better { next } else { best }
+        })
+    }
+
+    fn view(&self, position: usize) -> &Viewpoint {
+        &self.candidates[self.gains.views[position]]
+    }
+
+    fn distance(&self, position: usize) -> f64 {
+        (self.view(position).eye() - self.current).norm()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_in_any_case_and_unknown_ones_list_what_exists() {
+        assert_eq!(method("GNO").unwrap().name(), "gno");
+        let message = method("joint").err().unwrap().to_string();
+        assert!(
+            message.contains("`joint`") && message.contains("`gn`, `gno`, `random`"),
+            "{message}"
+        );
+    }
+}
