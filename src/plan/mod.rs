@@ -7,6 +7,7 @@
 
 mod attributes;
 pub mod candidates;
+mod closed_loop;
 pub mod completion;
 mod error;
 mod evaluate;
@@ -26,6 +27,7 @@ mod viewpoint;
 pub mod weights;
 mod world;
 
+pub use closed_loop::{ClosedLoop, Part, Sensor, Step};
 pub use completion::{Completion, Outcome};
 pub use error::PlanError;
 pub use features::Existence;

@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Pose;
+use crate::plan::{self, Decision, Outcome, Session, Step};
 
 /// A map whose entries keep the library's order.
 #[derive(Clone, Debug, PartialEq)]
@@ -165,9 +166,9 @@ pub struct Terms {
 pub struct Milliseconds {
     /// Rendering, or waiting for the sensor.
     pub sense: f64,
-    /// Detectors and measures.
+    /// Detectors, measures, and what follows from them: statuses, predictions, inspection.
     pub detect: f64,
-    /// Insertion, predictions, inspection.
+    /// Insertion into the map.
     pub map: f64,
     /// Scoring of the candidate views.
     pub score: f64,
@@ -211,6 +212,108 @@ impl Record {
     /// It is no record of a run log.
     pub fn from_line(line: &str) -> Result<Self, serde_json::Error> {
         serde_json::from_str(line)
+    }
+}
+
+impl Start {
+    /// The start of a session's run.
+    pub fn of(session: &Session, file: &str, object: &str, noise: &str, seed: u64, rules: String) -> Self {
+        let features = session.library().features.iter().map(|f| f.name.clone());
+        Self {
+            vpl: env!("CARGO_PKG_VERSION").to_owned(),
+            file: file.to_owned(),
+            task: session.task().name.clone(),
+            object: object.to_owned(),
+            method: session.method().to_owned(),
+            seed,
+            noise: noise.to_owned(),
+            limit: session.limit(),
+            candidates: session.views().len(),
+            rules,
+            weights: Ordered(features.zip(session.weights()).collect()),
+        }
+    }
+}
+
+impl View {
+    /// A step of the closed loop.
+    pub fn of(step: &Step, ms: Milliseconds) -> Self {
+        let update = &step.update;
+        Self {
+            n: update.n as u32,
+            view: update.view,
+            pose: LoggedPose::from(&step.observation.world_from_camera),
+            points: update.points,
+            features: Ordered(update.features.iter().map(|f| (f.name.clone(), Feature::from(f))).collect()),
+            classes: Ordered(update.classes.clone()),
+            voxels: Voxels {
+                unknown: update.voxels.unknown,
+                free: update.voxels.free,
+                occupied: update.voxels.occupied,
+                preoccupied: update.voxels.preoccupied,
+            },
+            completion: Completion {
+                confident: update.completion.confident,
+                exhausted: update.completion.exhausted,
+            },
+            next: match &step.decision {
+                Decision::Next(next) => Some(Next::from(next)),
+                Decision::End(_) => None,
+            },
+            ms,
+        }
+    }
+}
+
+impl End {
+    /// The end of a run of `views` measurements.
+    pub fn of(end: &plan::End, views: u32, coverage: Option<f64>) -> Self {
+        let contradicted = end.outcome == Outcome::Contradiction;
+        Self {
+            outcome: end.outcome.name().to_owned(),
+            views,
+            class: end.class.clone().filter(|_| !contradicted),
+            confidence: end.confidence,
+            coverage,
+            contradiction: end.contradiction.as_ref().map(|c| Contradiction {
+                feature: c.feature.clone(),
+                evidence: c.evidence.clone(),
+            }),
+        }
+    }
+}
+
+impl From<&plan::FeatureReport> for Feature {
+    fn from(report: &plan::FeatureReport) -> Self {
+        let instance = |i: &plan::InstanceReport| Instance {
+            key: i.key.clone(),
+            state: i.state.code(),
+            inspected: i.inspected,
+            predicted_voxels: i.predicted_voxels,
+            predicted_by: i.predicted_by.clone(),
+        };
+        Self {
+            state: report.state.code(),
+            predicted: report.predicted,
+            weight: report.weight,
+            instances: report.instances.iter().map(instance).collect(),
+        }
+    }
+}
+
+impl From<&plan::Next> for Next {
+    fn from(next: &plan::Next) -> Self {
+        Self {
+            view: next.view,
+            score: next.score,
+            terms: Terms {
+                overlap: next.terms.overlap.into(),
+                feature: next.terms.feature,
+                surface: next.terms.surface,
+                w: next.terms.w.into(),
+            },
+            relaxed: next.relaxed,
+        }
     }
 }
 

@@ -1,1 +1,9 @@
-//! What a run shows: the run log, progress on a terminal, summaries.
+//! What a run shows: the run log, lines on a terminal, the closing summary.
+//!
+//! Turns updates and decisions into records and text. It writes nothing itself.
+
+mod lines;
+pub mod log;
+
+
+pub use lines::{summary, view_line};
