@@ -73,7 +73,10 @@ fn decision(map: &Map) {
         let near = |v: &&Voxel| map.measured_within(&map.grid().centre(**v), map.grid().voxel);
         targets.iter().filter(near).count()
     });
-    println!("  points within a voxel: {:.0} ns a query, {near} found", ms * 1e6 / targets.len() as f64);
+    println!(
+        "  points within a voxel: {:.0} ns a query, {near} found",
+        ms * 1e6 / targets.len() as f64
+    );
 }
 
 /// At most 40,000 voxels of and behind surfaces.
