@@ -10,8 +10,8 @@ use vpl::geometry::{Camera, DepthRange, Intrinsics, Point, Pose, Rotation, Vecto
 use vpl::plan::{Decision, End, Options, Outcome, Session, Update};
 use vpl::primitives::{Default as Parameter, find};
 use vpl::rules::{
-    Backdrop, Call, Colour, Expr, FORMAT, FeatureKind, Goal, Library, Marker, Place, RuleSet, SceneObject, Space, Task,
-    Thresholds, Value,
+    Backdrop, Call, Colour, Expr, FORMAT, FeatureKind, Goal, Library, Marker, Place, RuleSet, SceneObject, SensorModel,
+    Space, Task, Thresholds, Value,
 };
 use vpl::sense::{Noise, Simulator};
 
@@ -166,6 +166,13 @@ fn reconstruction() -> Task {
             confidence: 0.99,
         },
         gain_floor: 5,
+        // OctoMap's shipped values let two grazing misses undo a hit: surfaces
+        // get cracks, and what shows through them is never used up.
+        sensor_model: SensorModel {
+            hit: 0.9,
+            miss: 0.45,
+            ..SensorModel::default()
+        },
         ..task()
     }
 }
@@ -290,9 +297,6 @@ fn run(rules: &RuleSet, scene: &Simulator, method: &str, start: usize) -> (Vec<U
         let camera = session.task().camera;
         let seen = scene.observe(&camera, &session.views()[view], Noise::None, 0, n);
         let update = session.observe(view, &seen).unwrap();
-        if std::env::var_os("TRACE").is_some() {
-            trace(&update, &session.next_view());
-        }
         updates.push(update);
         let decision = session.next_view();
         decisions.push(decision.clone());
@@ -301,24 +305,6 @@ fn run(rules: &RuleSet, scene: &Simulator, method: &str, start: usize) -> (Vec<U
             Decision::End(end) => return (updates, decisions, end),
         }
     }
-}
-
-fn trace(update: &Update, decision: &Decision) {
-    eprintln!(
-        "-- {} view {} {:?} {:?}",
-        update.n, update.view, update.voxels, update.completion
-    );
-    for f in &update.features {
-        eprintln!("   {} {} {} w {:.4}", f.name, f.state.code(), f.predicted, f.weight);
-        for i in &f.instances {
-            eprintln!(
-                "      {} {:.3} of {} by {:?}",
-                i.key, i.inspected, i.predicted_voxels, i.predicted_by
-            );
-        }
-    }
-    let likely: Vec<_> = update.classes.iter().filter(|c| c.1 > 0.0).collect();
-    eprintln!("   {likely:?}\n   {decision:?}");
 }
 
 fn prism(sides: u64) -> Call {
@@ -344,7 +330,7 @@ fn a_prism_is_found_to_be_one_and_seen_all_over() {
             (Outcome::Goal, Some("prism")),
             "{method} {start}"
         );
-        assert!(updates.len() <= 12, "{method} from {start} took {}", updates.len());
+        assert!(updates.len() <= 8, "{method} from {start} took {}", updates.len());
         let last = updates.last().unwrap();
         assert_eq!([0, 1, 2, 3, 4].map(|f| last.features[f].state.code()), [1, 1, 3, 1, 3]);
         assert_eq!(last.features[1].instances.len(), 4);
