@@ -57,13 +57,28 @@ const MOST_POINTS: usize = 40_000;
 /// Most looks that a marker keeps.
 const MOST_LOOKS: usize = 64;
 
+/// A spread about the plane beyond which borders are taken to be frayed, metres.
+const CLEAN: f64 = 0.0008;
+/// How many pixels wide a frayed border is.
+const NOISY_GRAIN: f64 = 1.6;
+/// Half edge of the window that straightens frayed borders, pixels.
+const SMOOTHING: usize = 2;
+/// Share of the window that must belong to the face.
+const MAJORITY: f64 = 0.4;
+
 impl FaceEvidence {
     /// The evidence of a face in one view.
     pub(super) fn of(scan: &Scan, face: &Face) -> Self {
         let spacing = SPACING.max((face.area / POINTS_A_VIEW).sqrt());
-        let grains: Vec<f64> = face.pixels.iter().map(|&p| grain(scan, p, &face.plane)).collect();
+        let noisy = face.rms > CLEAN;
+        let pixels = if noisy {
+            smoothed(scan, &face.pixels)
+        } else {
+            face.pixels.clone()
+        };
+        let grains: Vec<f64> = pixels.iter().map(|&p| grain(scan, p, &face.plane)).collect();
         let mut points = Vec::new();
-        for (&pixel, grain) in face.pixels.iter().zip(&grains) {
+        for (&pixel, grain) in pixels.iter().zip(&grains) {
             cover(
                 scan,
                 pixel,
@@ -73,7 +88,8 @@ impl FaceEvidence {
             );
         }
         let points = thinned(points, spacing, &face.plane.normal);
-        let grain = grains.iter().sum::<f64>() / grains.len().max(1) as f64;
+        let blur = if noisy { NOISY_GRAIN } else { 1.0 };
+        let grain = blur * grains.iter().sum::<f64>() / grains.len().max(1) as f64;
         Self {
             points,
             spacing,
@@ -113,11 +129,27 @@ impl Evidence {
     }
 }
 
+/// The pixels around which the face holds the majority: straightens borders
+/// that noise has frayed and fills lost readings.
+fn smoothed(scan: &Scan, pixels: &[usize]) -> Vec<usize> {
+    let cloud = &scan.cloud;
+    let mut votes = vec![0_u32; cloud.points.len()];
+    for &pixel in pixels {
+        cloud.square(pixel, SMOOTHING).for_each(|p| votes[p] += 1);
+    }
+    let all = (2 * SMOOTHING + 1).pow(2) as f64;
+    (0..votes.len())
+        .filter(|&p| f64::from(votes[p]) > MAJORITY * all)
+        .collect()
+}
+
 /// The longer side of a pixel's footprint on a plane, metres.
 fn grain(scan: &Scan, pixel: usize, plane: &Plane) -> f64 {
     let ray = scan.cloud.world_from_camera * scan.cloud.ray(pixel, 0.5, 0.5);
     let cosine = plane.normal.dot(&ray.normalize()).abs().max(0.1);
-    scan.cloud.depths[pixel] / scan.cloud.intrinsics.fx.min(scan.cloud.intrinsics.fy) / cosine
+    // The ray has z = 1, so it meets the plane at this z-depth.
+    let depth = (plane.distance(&scan.cloud.eye()) / plane.normal.dot(&ray)).abs();
+    depth / scan.cloud.intrinsics.fx.min(scan.cloud.intrinsics.fy) / cosine
 }
 
 /// Adds `side`² points of a pixel's footprint on the plane.

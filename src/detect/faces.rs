@@ -16,6 +16,8 @@ pub struct Face {
     pub plane: Plane,
     /// Its pixels in the cloud, ascending.
     pub pixels: Vec<usize>,
+    /// Spread of the points about the plane, metres.
+    pub rms: f64,
     /// Its seen area, square metres.
     pub area: f64,
 }
@@ -36,6 +38,7 @@ pub fn faces(scan: &Scan, colour: Option<Colour>, smallest: f64) -> Vec<Face> {
             if area >= smallest * smallest {
                 found.push(Face {
                     plane: region.plane,
+                    rms: region.rms,
                     pixels,
                     area,
                 });

@@ -50,7 +50,7 @@ impl Scan {
     /// Every code that can be read in this view.
     pub(super) fn codes(&self) -> &[Code] {
         self.codes
-            .get_or_init(|| qr::read(&self.cloud, &self.regions, &self.luma))
+            .get_or_init(|| qr::read(&self.cloud, &self.regions, &self.colours, &self.luma))
     }
 }
 

@@ -93,26 +93,32 @@ impl Tracer<'_> {
         if inside {
             return Some(Reading { address, point });
         }
-        self.mark(address);
+        self.mark(address.0 / 64, address.bit());
         None
     }
 
-    /// Marks every voxel before the last.
+    /// Marks every voxel before the last, a word at a time.
     #[inline(always)]
     fn mark_way(&self, walk: &mut Walk) {
         let mut here = self.layout.address(walk.cell);
+        let (mut word, mut bits) = (here.0 / 64, 0);
         while walk.advance() {
-            self.mark(here);
+            if here.0 / 64 != word {
+                self.mark(word, bits);
+                (word, bits) = (here.0 / 64, 0);
+            }
+            bits |= here.bit();
             here = self.layout.address(walk.cell);
         }
+        self.mark(word, bits);
     }
 
     /// Most voxels near an eye are passed by many rays: look before writing.
     #[inline(always)]
-    fn mark(&self, address: Address) {
-        let word = &self.passed[address.0 / 64];
-        if word.load(Relaxed) & address.bit() == 0 {
-            word.fetch_or(address.bit(), Relaxed);
+    fn mark(&self, word: usize, bits: u64) {
+        let word = &self.passed[word];
+        if word.load(Relaxed) & bits != bits {
+            word.fetch_or(bits, Relaxed);
         }
     }
 }

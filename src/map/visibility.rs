@@ -77,16 +77,21 @@ impl Sight<'_> {
     }
 }
 
+/// The time at which a line reaches the eye.
+const ONE: u64 = 1 << 62;
+
 /// A line from the centre of a voxel, counted in borders crossed along each
-/// axis. The n-th border along an axis is crossed at (n − ½) · period; the eye
-/// is at time 1.
+/// axis. The n-th border of an axis is crossed at (2n − 1) · `half`, in whole
+/// units, so that leaps and steps agree exactly.
 struct Line {
     target: [i32; 3],
     step: [i32; 3],
+    half: [u64; 3],
+    /// Borders a unit of time.
     rate: [f64; 3],
-    period: [f64; 3],
     crossed: [i32; 3],
-    leave: f64,
+    /// When it has left the box of occupied blocks or reached the eye.
+    leave: u64,
 }
 
 enum Crossing {
@@ -101,34 +106,32 @@ impl Line {
     #[inline]
     fn entering(clearance: &Clearance, target: [i32; 3], eye: [f64; 3]) -> Option<Self> {
         let along = [0, 1, 2].map(|k| eye[k] - (f64::from(target[k]) + 0.5));
-        let rate = along.map(f64::abs);
-        if !rate.iter().all(|r| r.is_finite()) {
+        if !along.iter().all(|d| d.is_finite()) {
             return None;
         }
         let mut line = Self {
             target,
             step: along.map(|d| if d < 0.0 { -1 } else { 1 }),
-            rate,
-            period: rate.map(f64::recip),
+            half: along.map(|d| (ONE as f64 * 0.5 / d.abs()).min(ONE as f64) as u64),
+            rate: along.map(|d| d.abs() / ONE as f64),
             crossed: [0; 3],
-            leave: 1.0,
+            leave: ONE,
         };
-        let (mut enter, mut axis, mut borders) = (0.0, 0, 0);
+        let (mut enter, mut axis, mut borders) = (0, 0, 0);
         for k in 0..3 {
             let (first, beyond) = line.span(k, clearance.low[k], clearance.high[k]);
             if beyond <= 0 {
                 return None;
             }
             line.leave = line.leave.min(line.time(k, beyond));
-            let time = line.time(k, first);
-            if time > enter {
-                (enter, axis, borders) = (time, k, first);
+            if first > 0 && line.time(k, first) > enter {
+                (enter, axis, borders) = (line.time(k, first), k, first);
             }
         }
         if enter >= line.leave {
             return None;
         }
-        if enter > 0.0 {
+        if borders > 0 {
             line.jump(axis, borders, enter);
         }
         Some(line)
@@ -146,9 +149,10 @@ impl Line {
         }
     }
 
+    /// When a border, counted from 1, is crossed.
     #[inline(always)]
-    fn time(&self, k: usize, border: i32) -> f64 {
-        (f64::from(border) - 0.5) * self.period[k]
+    fn time(&self, k: usize, border: i32) -> u64 {
+        self.half[k].saturating_mul(2 * border as u64 - 1)
     }
 
     #[inline(always)]
@@ -165,17 +169,19 @@ impl Line {
             let block = cell[k] >> 2;
             self.span(k, (block - distance + 1) * 4, (block + distance) * 4).1
         });
-        let (axis, time) = earliest([0, 1, 2].map(|k| self.time(k, exit[k])));
-        if time >= self.leave {
-            return false;
+        let times = [0, 1, 2].map(|k| self.time(k, exit[k]));
+        let first = earliest(times);
+        let axis = usize::from(first[1]) + 2 * usize::from(first[2]);
+        let time = times[0].min(times[1]).min(times[2]);
+        if time < self.leave {
+            self.jump(axis, exit[axis], time);
         }
-        self.jump(axis, exit[axis], time);
-        true
+        time < self.leave
     }
 
     /// Goes to where a border of an axis is crossed.
     #[inline(always)]
-    fn jump(&mut self, axis: usize, border: i32, time: f64) {
+    fn jump(&mut self, axis: usize, border: i32, time: u64) {
         for k in 0..3 {
             self.crossed[k] = if k == axis {
                 border
@@ -185,36 +191,36 @@ impl Line {
         }
     }
 
-    /// Borders of an axis crossed by a time. The estimate is set right by the
-    /// times that stepping compares, so that leaps and steps agree.
+    /// Borders of an axis crossed by a time, itself included or not.
     #[inline(always)]
-    fn borders_by(&self, k: usize, time: f64, inclusive: bool) -> i32 {
-        let n = (time * self.rate[k] + 0.5) as i32;
-        let crossed = |t: f64| if inclusive { t <= time } else { t < time };
-        if !crossed(self.time(k, n)) {
-            n - 1
-        } else {
-            n + i32::from(crossed(self.time(k, n + 1)))
-        }
+    fn borders_by(&self, k: usize, time: u64, inclusive: bool) -> i32 {
+        let before = time + u64::from(inclusive);
+        // The estimate is off by one at most.
+        let n = (time as i64 as f64 * self.rate[k] + 0.5) as i32;
+        n + i32::from(self.time(k, n + 1) < before) - i32::from(n > 0 && self.time(k, n) >= before)
     }
 
     /// Steps through a block with occupied voxels.
     #[inline(always)]
     fn cross(&mut self, word: u64, tolerance: f64) -> Crossing {
-        let mut cell = self.cell();
+        let mut at = self.cell().map(|c| c & 3);
+        let mut next = [0, 1, 2].map(|k| self.time(k, self.crossed[k] + 1));
         loop {
-            let bit = (cell[0] & 3) | (cell[1] & 3) << 2 | (cell[2] & 3) << 4;
+            let bit = at[0] | at[1] << 2 | at[2] << 4;
             if word >> bit & 1 == 1 && self.distance_squared() > tolerance {
                 return Crossing::Hidden;
             }
-            let (k, time) = earliest([0, 1, 2].map(|k| self.time(k, self.crossed[k] + 1)));
-            if time >= self.leave {
+            if next[0].min(next[1]).min(next[2]) >= self.leave {
                 return Crossing::Ended;
             }
-            let before = cell[k];
-            self.crossed[k] += 1;
-            cell[k] += self.step[k];
-            if before >> 2 != cell[k] >> 2 {
+            // Without branches: which axis is next cannot be foretold.
+            let first = earliest(next);
+            for k in 0..3 {
+                next[k] += u64::from(first[k]) * 2 * self.half[k];
+                self.crossed[k] += i32::from(first[k]);
+                at[k] += i32::from(first[k]) * self.step[k];
+            }
+            if (at[0] | at[1] | at[2]) & !3 != 0 {
                 return Crossing::Left;
             }
         }
@@ -226,14 +232,10 @@ impl Line {
     }
 }
 
+/// Which of three times comes first; x before y before z where equal.
 #[inline(always)]
-fn earliest(times: [f64; 3]) -> (usize, f64) {
-    let [x, y, z] = times;
-    if x <= y && x <= z {
-        (0, x)
-    } else if y <= z {
-        (1, y)
-    } else {
-        (2, z)
-    }
+fn earliest([x, y, z]: [u64; 3]) -> [bool; 3] {
+    let first = (x <= y) & (x <= z);
+    let second = !first & (y <= z);
+    [first, second, !first & !second]
 }

@@ -29,7 +29,7 @@ impl Walk {
         let (enter, leave) = clip(size, from, along)?;
         let cell_at = |t: f64| {
             [0, 1, 2].map(|k| {
-                let c = (from[k] + t * along[k]).floor();
+                let c = from[k] + t * along[k];
                 c.clamp(0.0, f64::from(size[k]) - 1.0) as usize
             })
         };
@@ -106,5 +106,5 @@ fn clip(size: [u32; 3], from: [f64; 3], along: [f64; 3]) -> Option<(f64, f64)> {
 
 #[inline]
 fn cell_at_point(size: [u32; 3], p: [f64; 3]) -> [usize; 3] {
-    [0, 1, 2].map(|k| p[k].floor().clamp(0.0, f64::from(size[k]) - 1.0) as usize)
+    [0, 1, 2].map(|k| p[k].clamp(0.0, f64::from(size[k]) - 1.0) as usize)
 }

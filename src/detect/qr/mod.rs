@@ -20,6 +20,9 @@ const SIZE_WITHIN: f64 = 0.25;
 /// Corners of one code read in two regions lie closer than this, in units of its size.
 const SAME: f64 = 0.25;
 
+/// Least difference between light and dark pixels of a region with a code, of 255.
+const LEAST_CONTRAST: u8 = 30;
+
 /// A decoded code in the world.
 pub struct Code {
     /// The decoded text.
@@ -33,9 +36,9 @@ pub struct Code {
 }
 
 /// Reads every code on the planar regions of a view.
-pub(super) fn read(cloud: &Cloud, regions: &[Region], luma: &Luma) -> Vec<Code> {
+pub(super) fn read(cloud: &Cloud, regions: &[Region], colours: &[Option<[u8; 3]>], luma: &Luma) -> Vec<Code> {
     let mut codes: Vec<Code> = Vec::new();
-    for region in regions {
+    for region in regions.iter().filter(|r| contrasts(r, colours)) {
         let Some(patch) = patch::Patch::of(cloud, region, luma) else {
             continue;
         };
@@ -45,6 +48,14 @@ pub(super) fn read(cloud: &Cloud, regions: &[Region], luma: &Luma) -> Vec<Code> 
         }
     }
     codes
+}
+
+/// Whether a region shows dark and light, as every code does.
+fn contrasts(region: &Region, colours: &[Option<[u8; 3]>]) -> bool {
+    let mut greens: Vec<u8> = region.pixels.iter().filter_map(|&p| colours[p].map(|c| c[1])).collect();
+    greens.sort_unstable();
+    let share = |s: usize| greens.get(greens.len() * s / 100).copied().unwrap_or(0);
+    share(98) > share(2).saturating_add(LEAST_CONTRAST)
 }
 
 fn same(a: &Code, b: &Code) -> bool {

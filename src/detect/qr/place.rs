@@ -11,19 +11,26 @@ use crate::detect::scan::Luma;
 use crate::detect::segment::Region;
 use crate::geometry::{Point, Pose, Vector};
 
-/// Half the print's edge over half the code's: the quiet zone is part of the print.
-const PRINT: f64 = 1.3;
-/// Fewest points behind a code that place it better than its whole region.
-const LEAST_POINTS: usize = 24;
+/// Fewest points behind a code that place it.
+const LEAST_POINTS: usize = 16;
+/// Points this far off the region's plane may still be the print's: a plate
+/// on a surface can share its region, metres.
+const NEAR: f64 = 0.012;
+/// Least share of the readings inside the square that lie on its plane.
+const SUPPORT: f64 = 0.7;
+/// Distances that count as on the plane, in units of the spread about it, and at least, metres.
+const ON_PLANE: (f64, f64) = (3.0, 0.0025);
 
-/// Where a decoded square lies; `None` where its plane is seen from behind.
+/// Where a decoded square lies; `None` where the depth image does not support
+/// a plane there: what is drawn on a region's plane can belong to a surface
+/// before or behind it.
 pub fn placed(cloud: &Cloud, region: &Region, luma: &Luma, patch: &Patch, square: Square) -> Option<Code> {
     let eye = cloud.eye();
     let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| {
         let p = square.top_left + square.right * x + square.down * y;
         patch.point(p.x, p.y)
     });
-    let plane = plane_behind(cloud, region, &corners).facing(&eye);
+    let plane = plane_behind(cloud, region, &corners)?.facing(&eye);
     let mut hit = corners;
     for corner in &mut hit {
         *corner = plane.hit(&eye, &(*corner - eye))?;
@@ -31,8 +38,7 @@ pub fn placed(cloud: &Cloud, region: &Region, luma: &Luma, patch: &Patch, square
     let [top_left, top_right, bottom_right, bottom_left] = hit;
     let right = (top_right - top_left) + (bottom_right - bottom_left);
     let up = (top_left - bottom_left) + (top_right - bottom_right);
-    let centre = Point::from(hit.iter().map(|p| p.coords).sum::<Vector>() / 4.0);
-    let pose = oriented(centre, right, up, plane.normal)?;
+    let pose = oriented(mean(&hit), right, up, plane.normal)?;
     let size = (right.norm() + up.norm()) / 4.0;
     let pixels = seen_area(cloud, luma, &hit)?;
     Some(Code {
@@ -41,6 +47,10 @@ pub fn placed(cloud: &Cloud, region: &Region, luma: &Luma, patch: &Patch, square
         size,
         pixels,
     })
+}
+
+fn mean(corners: &[Point; 4]) -> Point {
+    Point::from(corners.iter().map(|p| p.coords).sum::<Vector>() / 4.0)
 }
 
 /// The pose of orthonormal axes nearest to the measured directions.
@@ -56,19 +66,32 @@ fn oriented(centre: Point, right: Vector, up: Vector, out: Vector) -> Option<Pos
     ))
 }
 
-/// A plane through the points behind the print, or the region's where they are few.
-fn plane_behind(cloud: &Cloud, region: &Region, corners: &[Point; 4]) -> Plane {
-    let centre = Point::from(corners.iter().map(|p| p.coords).sum::<Vector>() / 4.0);
+/// The plane through the points seen inside the square; `None` where too few
+/// of its readings lie on one.
+fn plane_behind(cloud: &Cloud, region: &Region, corners: &[Point; 4]) -> Option<Plane> {
+    let centre = mean(corners);
     let (x, y) = ((corners[1] - corners[0]) / 2.0, (corners[3] - corners[0]) / 2.0);
-    let inside = |p: &&Point| {
-        let d = **p - centre;
-        d.dot(&x).abs() <= PRINT * x.norm_squared() && d.dot(&y).abs() <= PRINT * y.norm_squared()
+    let eye = cloud.eye();
+    let inside = |pixel: &usize| {
+        let ray = cloud.world_from_camera * cloud.ray(*pixel, 0.5, 0.5);
+        region.plane.hit(&eye, &ray).is_some_and(|p| {
+            let d = p - centre;
+            d.dot(&x).abs() <= x.norm_squared() && d.dot(&y).abs() <= y.norm_squared()
+        })
     };
-    let behind = region.pixels.iter().map(|&p| &cloud.points[p]).filter(inside);
-    if behind.clone().count() < LEAST_POINTS {
-        return region.plane;
+    let seen: Vec<Point> = (0..cloud.points.len())
+        .filter(|&p| cloud.holds(p))
+        .filter(inside)
+        .map(|p| cloud.points[p])
+        .collect();
+    let near = seen.iter().filter(|p| region.plane.distance(p).abs() <= NEAR);
+    if near.clone().count() < LEAST_POINTS {
+        return None;
     }
-    robust_plane(behind).map_or(region.plane, |fit| fit.plane)
+    let fit = robust_plane(near)?;
+    let within = (ON_PLANE.0 * fit.rms).max(ON_PLANE.1);
+    let on = seen.iter().filter(|p| fit.plane.distance(p).abs() <= within).count();
+    (on as f64 >= SUPPORT * seen.len() as f64).then_some(fit.plane)
 }
 
 /// Pixels of the colour image inside the square.
