@@ -39,6 +39,8 @@ pub struct Matching {
     pub near: f64,
     /// How far a measurement moves before rules take notice, metres.
     pub moved: f64,
+    /// How far from a marker other features can lie, metres.
+    pub reach: f64,
 }
 
 /// Takes a detection into a feature's instances. `revision` hands out numbers
@@ -57,7 +59,7 @@ pub fn take(feature: &mut FeatureStatus, detection: Detection, matching: &Matchi
                     .for_each(|e| merge_evidence(&mut feature.found[first], e));
             }
             join(&mut feature.found[first], detection);
-            settle(&mut feature.found[first], matching.moved, revision);
+            settle(&mut feature.found[first], matching, revision);
         }
         None if matching.many || feature.found.is_empty() => {
             let number = feature.found.iter().map(|f| f.number).max().unwrap_or(0) + 1;
@@ -126,9 +128,16 @@ fn merge_evidence(found: &mut Found, more: Evidence) {
     found.evidence = Some(merged);
 }
 
-/// Lets the anchor follow a measurement that has moved far enough.
-fn settle(found: &mut Found, distance: f64, revision: &mut u32) {
-    if found.measurement.moved(&found.anchor, distance) {
+/// Lets the anchor follow a measurement that has moved far enough. A marker
+/// that turned moves what is tied to it, though its centre stays.
+fn settle(found: &mut Found, matching: &Matching, revision: &mut u32) {
+    let turned = match (&found.measurement, &found.anchor) {
+        (Measurement::Marker { pose, .. }, Measurement::Marker { pose: before, .. }) => {
+            pose.rotation.angle_to(&before.rotation) * matching.reach > matching.moved
+        }
+        _ => false,
+    };
+    if turned || found.measurement.moved(&found.anchor, matching.moved) {
         *revision += 1;
         found.anchor = found.measurement.clone();
         found.revision = *revision;

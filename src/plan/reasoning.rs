@@ -146,6 +146,7 @@ fn take(
         many,
         near: knowledge.criteria.near,
         moved: knowledge.task.space.voxel / 2.0,
+        reach: knowledge.task.space.size.norm() / 2.0,
     };
     let pin = (many && !rule.antecedents.is_empty()).then(|| Pin {
         key: expansion.key.clone(),

@@ -49,6 +49,7 @@ pub enum Phase {
 }
 
 /// A run in progress.
+#[derive(Clone)]
 pub struct Session {
     knowledge: Knowledge,
     method: &'static dyn Method,

@@ -1,0 +1,10 @@
+mod arrows;
+mod differential;
+mod fixtures;
+mod instances;
+mod reference;
+mod simulated;
+mod tanks;
+mod trial;
+mod world;
+mod worlds;
