@@ -93,7 +93,10 @@ impl Simulator {
                     let ray: Vector = image.ray((k % width) as f64 + 0.5, (k / width) as f64 + 0.5);
                     backdrop?.hit(&ray).map(|(z, cosine)| (z as f32, cosine as f32))
                 })?;
-                camera.range.contains(f64::from(depth)).then_some(Reading { depth, cosine })
+                camera
+                    .range
+                    .contains(f64::from(depth))
+                    .then_some(Reading { depth, cosine })
             })
             .map(|reading| reading.unwrap_or(Reading::NONE))
             .collect();
@@ -117,3 +120,6 @@ impl Simulator {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -81,7 +81,10 @@ mod tests {
 
     #[test]
     fn uris_give_their_payload_and_names_their_spaces() {
-        assert_eq!(data_uri("data:application/octet-stream;base64,AAEC"), Some(vec![0, 1, 2]));
+        assert_eq!(
+            data_uri("data:application/octet-stream;base64,AAEC"),
+            Some(vec![0, 1, 2])
+        );
         assert_eq!(data_uri("body.bin"), None);
         assert_eq!(percent_decoded("a%20b%C3%A9%"), "a bé%");
     }

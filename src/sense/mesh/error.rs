@@ -97,7 +97,11 @@ impl fmt::Display for MeshWarning {
         match self {
             Self::DegenerateFaces(n) => write!(f, "{n} faces without area were left out"),
             Self::OpenEdges(n) => write!(f, "the mesh is not closed: {n} edges are open"),
-            Self::MissingFile(path) => write!(f, "`{}` is missing or cannot be used; its faces have no texture", path.display()),
+            Self::MissingFile(path) => write!(
+                f,
+                "`{}` is missing or cannot be used; its faces have no texture",
+                path.display()
+            ),
         }
     }
 }
@@ -108,7 +112,13 @@ fn in_each_unit(extents: &Vector) -> String {
         .iter()
         .map(|unit| {
             let e = extents * unit.metres();
-            format!("`units: {}` gives {:.4} by {:.4} by {:.4} m", unit.name(), e.x, e.y, e.z)
+            format!(
+                "`units: {}` gives {:.4} by {:.4} by {:.4} m",
+                unit.name(),
+                e.x,
+                e.y,
+                e.z
+            )
         })
         .collect::<Vec<_>>()
         .join(", ")

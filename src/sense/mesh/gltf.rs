@@ -16,8 +16,7 @@ use crate::geometry::Point;
 const DEEPEST: usize = 64;
 
 pub(super) fn read(bytes: &[u8], soup: &mut Soup) -> Result<(), MeshError> {
-    let Gltf { document, blob } =
-        Gltf::from_slice(bytes).map_err(|e| soup.malformed(e.to_string().to_lowercase()))?;
+    let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(|e| soup.malformed(e.to_string().to_lowercase()))?;
     let buffers = document
         .buffers()
         .map(|b| buffer_bytes(&b, blob.as_deref(), soup))
@@ -47,7 +46,12 @@ fn buffer_bytes(buffer: &buffer::Buffer, blob: Option<&[u8]>, soup: &Soup) -> Re
         buffer::Source::Uri(uri) => resolve(uri, soup)?,
     };
     if bytes.len() < buffer.length() {
-        let what = format!("buffer {} states {} bytes and has {}", buffer.index(), buffer.length(), bytes.len());
+        let what = format!(
+            "buffer {} states {} bytes and has {}",
+            buffer.index(),
+            buffer.length(),
+            bytes.len()
+        );
         return Err(soup.malformed(what));
     }
     Ok(bytes)
@@ -123,7 +127,11 @@ impl Scene {
             let ids = if mirrored { [ids[0], ids[2], ids[1]] } else { ids };
             let at = ids.map(|i| corners.get(i as usize).copied());
             let [Some(a), Some(b), Some(c)] = at else {
-                return Err(soup.malformed(format!("a face names corner {} of {}", ids.iter().max().unwrap_or(&0), corners.len())));
+                return Err(soup.malformed(format!(
+                    "a face names corner {} of {}",
+                    ids.iter().max().unwrap_or(&0),
+                    corners.len()
+                )));
             };
             soup.push([a, b, c], look.paint(ids))?;
         }
@@ -152,7 +160,13 @@ fn faces(mode: Mode, order: &[u32]) -> Vec<[u32; 3]> {
         Mode::TriangleStrip => order
             .windows(3)
             .enumerate()
-            .map(|(k, t)| if k % 2 == 0 { [t[0], t[1], t[2]] } else { [t[1], t[0], t[2]] })
+            .map(|(k, t)| {
+                if k % 2 == 0 {
+                    [t[0], t[1], t[2]]
+                } else {
+                    [t[1], t[0], t[2]]
+                }
+            })
             .collect(),
         Mode::TriangleFan => (2..order.len()).map(|k| [order[0], order[k - 1], order[k]]).collect(),
         _ => Vec::new(),

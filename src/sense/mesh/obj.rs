@@ -25,8 +25,8 @@ pub(super) fn read(bytes: &[u8], soup: &mut Soup) -> Result<(), MeshError> {
             .and_then(|bytes| tobj::load_mtl_buf(&mut Cursor::new(bytes)))
             .inspect_err(|_| missing.borrow_mut().push(path))
     };
-    let (models, materials) =
-        tobj::load_obj_buf(&mut Cursor::new(bytes), &OPTIONS, load_materials).map_err(|e| soup.malformed(e.to_string()))?;
+    let (models, materials) = tobj::load_obj_buf(&mut Cursor::new(bytes), &OPTIONS, load_materials)
+        .map_err(|e| soup.malformed(e.to_string()))?;
     soup.warnings
         .extend(missing.into_inner().into_iter().map(MeshWarning::MissingFile));
     let looks = looks(&materials.unwrap_or_default(), soup);
@@ -96,7 +96,9 @@ fn paint(mesh: &tobj::Mesh, face: usize, ids: [u32; 3], look: &Look) -> Paint {
     }
     let colour = |i: u32| {
         let k = 3 * i as usize;
-        mesh.vertex_color.get(k..k + 3).map(|c| [byte(c[0]), byte(c[1]), byte(c[2])])
+        mesh.vertex_color
+            .get(k..k + 3)
+            .map(|c| [byte(c[0]), byte(c[1]), byte(c[2])])
     };
     match (ids.map(colour), look) {
         ([Some(a), Some(b), Some(c)], _) => Paint::Corners([a, b, c]),

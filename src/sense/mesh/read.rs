@@ -151,12 +151,16 @@ impl Soup {
     /// Units and up axis: stated, or the format's own.
     fn placement(&self, format: Format, options: &MeshOptions) -> Result<(Units, Axis), MeshError> {
         let native = (format == Format::Gltf).then_some((Units::Metres, Axis::Y));
-        let extents = Bounds::around(self.corners.iter().flatten()).ok_or_else(|| MeshError::Empty(self.path.clone()))?;
+        let extents =
+            Bounds::around(self.corners.iter().flatten()).ok_or_else(|| MeshError::Empty(self.path.clone()))?;
         let path = || self.path.clone();
-        let units = options.units.or(native.map(|n| n.0)).ok_or_else(|| MeshError::UnitsNeeded {
-            path: path(),
-            extents: extents.size(),
-        })?;
+        let units = options
+            .units
+            .or(native.map(|n| n.0))
+            .ok_or_else(|| MeshError::UnitsNeeded {
+                path: path(),
+                extents: extents.size(),
+            })?;
         let up = options.up.or(native.map(|n| n.1)).ok_or_else(|| MeshError::UpNeeded {
             path: path(),
             extents: extents.size(),
@@ -181,7 +185,9 @@ impl Soup {
             }
             let triangle = corners.map(|p| {
                 let next = mesh.vertices.len() as u32;
-                let id = *index.entry([p.x, p.y, p.z].map(|c| (c + 0.0).to_bits())).or_insert(next);
+                let id = *index
+                    .entry([p.x, p.y, p.z].map(|c| (c + 0.0).to_bits()))
+                    .or_insert(next);
                 if id == next {
                     mesh.vertices.push(p);
                 }

@@ -51,7 +51,8 @@ fn read_triangles(bytes: Vec<u8>, soup: &mut Soup) -> Result<(), MeshError> {
     let mut cursor = Cursor::new(bytes);
     let triangles = stl_io::create_stl_reader(&mut cursor).map_err(|e| soup.malformed(e.to_string().to_lowercase()))?;
     for (k, triangle) in triangles.enumerate() {
-        let triangle = triangle.map_err(|e| soup.malformed(format!("triangle {}: {}", k + 1, e.to_string().to_lowercase())))?;
+        let triangle =
+            triangle.map_err(|e| soup.malformed(format!("triangle {}: {}", k + 1, e.to_string().to_lowercase())))?;
         let corners = triangle
             .vertices
             .map(|v| Point::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2])));

@@ -45,15 +45,15 @@ impl Backdrop {
 }
 
 /// The colour image of what is visible. Without a backdrop, empty air is black.
-pub(in crate::sense) fn shade(
-    seen: &Visibility,
-    backdrop: Option<Backdrop>,
-    world_from_camera: &Pose,
-) -> ColourImage {
+pub(in crate::sense) fn shade(seen: &Visibility, backdrop: Option<Backdrop>, world_from_camera: &Pose) -> ColourImage {
     let painter = Painter {
         seen,
         air: backdrop.map_or([0; 3], |b| b.colour),
-        bright: seen.facets.par_iter().map(|f| light(&f.normal, world_from_camera)).collect(),
+        bright: seen
+            .facets
+            .par_iter()
+            .map(|f| light(&f.normal, world_from_camera))
+            .collect(),
     };
     let (width, height) = (seen.image.width, seen.image.height);
     let pixels = (0..height as usize)

@@ -136,7 +136,11 @@ fn across_the_eye(corners: &[Point; 3], image: &Intrinsics) -> Option<Extent> {
             part.push(Point::new(p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t, nearest));
         }
     }
-    if part.is_empty() { None } else { around(part.into_iter(), image) }
+    if part.is_empty() {
+        None
+    } else {
+        around(part.into_iter(), image)
+    }
 }
 
 fn around(points: impl Iterator<Item = Point>, image: &Intrinsics) -> Option<Extent> {

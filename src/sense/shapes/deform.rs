@@ -103,7 +103,12 @@ fn pocket(call: &Call, sides: usize, sign: f64) -> Result<Pocket, SceneError> {
     if pocket.out.abs() * WALL_RUN * 2.0 > narrowest - 0.001 {
         let found = format!("{:.0} mm over {:.0} mm", pocket.out.abs() * 1e3, narrowest * 1e3);
         let most = (narrowest - 0.001) / (2.0 * WALL_RUN) * 1e3;
-        return Err(out_of_range(call, "depth", found, format!("at most {most:.0} mm there")));
+        return Err(out_of_range(
+            call,
+            "depth",
+            found,
+            format!("at most {most:.0} mm there"),
+        ));
     }
     Ok(pocket)
 }
@@ -168,7 +173,12 @@ impl Face<'_> {
         }
         if builder.face(self.outline, &rims, colour).is_none() {
             let found = "dents or bumps that meet on one face".to_owned();
-            return Err(out_of_range(shape, "deformed", found, "deformations apart from each other"));
+            return Err(out_of_range(
+                shape,
+                "deformed",
+                found,
+                "deformations apart from each other",
+            ));
         }
         for ((pocket, centre), rim) in pockets.iter().zip(&rims) {
             pocket.build(*centre, self, rim, colour, builder);
@@ -188,5 +198,10 @@ pub(super) fn misfit(pocket: &Pocket, shape: &Call) -> SceneError {
         pocket.width * 1e3,
         pocket.height * 1e3,
     );
-    out_of_range(shape, "deformed", found, "one that lies within its side, beside notches")
+    out_of_range(
+        shape,
+        "deformed",
+        found,
+        "one that lies within its side, beside notches",
+    )
 }

@@ -4,8 +4,8 @@ use qrcodegen::{QrCode, QrCodeEcc};
 
 use crate::geometry::Point;
 use crate::rules::Marker;
-use crate::sense::mesh::{Mesh, Paint, Texture};
 use crate::sense::SceneError;
+use crate::sense::mesh::{Mesh, Paint, Texture};
 
 /// Thickness of a plate, metres.
 pub const PLATE: f64 = 0.004;

@@ -109,12 +109,7 @@ impl Base {
 }
 
 fn notch_points(a: Flat, d: Flat, [from, to]: [f64; 2], depth: f64, side: usize) -> [OutlinePoint; 4] {
-    let along = |s: f64, inwards: f64| {
-        [
-            a[0] + d[0] * s - d[1] * inwards,
-            a[1] + d[1] * s + d[0] * inwards,
-        ]
-    };
+    let along = |s: f64, inwards: f64| [a[0] + d[0] * s - d[1] * inwards, a[1] + d[1] * s + d[0] * inwards];
     [
         (along(from, 0.0), None),
         (along(from, depth), None),

@@ -7,9 +7,8 @@ use crate::sense::Mesh;
 /// Quadratic: for shapes of hundreds of triangles.
 pub(super) fn checked(mesh: Mesh) -> Option<Mesh> {
     let n = mesh.triangles.len();
-    let clean = (0..n).all(|j| {
-        (0..n).all(|k| j == k || share_a_vertex(&mesh, j, k) || !pierces(mesh.corners(j), mesh.corners(k)))
-    });
+    let clean = (0..n)
+        .all(|j| (0..n).all(|k| j == k || share_a_vertex(&mesh, j, k) || !pierces(mesh.corners(j), mesh.corners(k))));
     clean.then_some(mesh)
 }
 

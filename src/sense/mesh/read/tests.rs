@@ -3,8 +3,10 @@ use crate::sense::Mesh;
 
 /// A file of the shared samples; `None` (with a word about it) where absent.
 fn sample(name: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("VPL_DATA")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"), PathBuf::from);
+    let root = std::env::var_os("VPL_DATA").map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
+        PathBuf::from,
+    );
     let path = root.join("meshes").join(name);
     if !path.exists() {
         eprintln!("skipped: {} is not here", path.display());
@@ -64,7 +66,13 @@ fn sample_parts_have_the_sizes_that_others_measured() {
         ("ariac/battery_collision.stl", METRES, 108, [0.132, 0.05, 0.04], true),
         ("cad/1002_tray_bottom.STL", mm, 4520, [0.3556, 0.003175, 0.3556], true),
         ("cad/7_8ths_cube.stl", mm, 24, [0.04, 0.04, 0.04], true),
-        ("cad/octagonal_pocket.ply", METRES, 3262, [0.2286, 0.1647, 0.01588], true),
+        (
+            "cad/octagonal_pocket.ply",
+            METRES,
+            3262,
+            [0.2286, 0.1647, 0.01588],
+            true,
+        ),
         ("cad/tet.ply", METRES, 4, [2.0, 2.0, 2.0], true),
         ("formats/cube.ply", METRES, 12, [1.0, 1.0, 1.0], true),
         ("scans/bunny.ply", METRES, 16301, [0.1555, 0.1533, 0.1206], false),
@@ -73,8 +81,19 @@ fn sample_parts_have_the_sizes_that_others_measured() {
     ] {
         let Some(path) = sample(name) else { return };
         let mesh = read(&path, &options).unwrap();
-        check_extents(&mesh, triangles, extents, 0.01 * extents.iter().fold(0.0_f64, |a, b| a.max(*b)));
-        assert_eq!(mesh.open_edges() == 0, closed, "{name}");
+        check_extents(
+            &mesh,
+            triangles,
+            extents,
+            0.01 * extents.iter().fold(0.0_f64, |a, b| a.max(*b)),
+        );
+        assert_eq!(
+            mesh.open_edges() == 0,
+            closed,
+            "{name}: {} {}",
+            mesh.open_edges(),
+            mesh.vertices.len()
+        );
     }
 }
 
@@ -99,7 +118,12 @@ fn a_file_without_units_says_what_it_would_measure() {
         element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n40 0 0\n0 20 0\n3 0 1 2\n";
     let error = read_bytes(Format::Ply, cube, &MeshOptions::default()).unwrap_err();
     assert_eq!(error.code(), "mesh_units");
-    assert!(error.to_string().contains("`units: mm` gives 0.0400 by 0.0200 by 0.0000 m"), "{error}");
+    assert!(
+        error
+            .to_string()
+            .contains("`units: mm` gives 0.0400 by 0.0200 by 0.0000 m"),
+        "{error}"
+    );
     let units = MeshOptions {
         units: Some(Units::Inches),
         up: None,
@@ -214,7 +238,9 @@ fn a_gltf_text_with_a_data_uri_is_read() {
     assert!(mesh.vector_area(0).y > 0.0);
     let short = text.replace("\"count\":3", "\"count\":300");
     assert_eq!(
-        read_bytes(Format::Gltf, short.as_bytes(), &MeshOptions::default()).unwrap_err().code(),
+        read_bytes(Format::Gltf, short.as_bytes(), &MeshOptions::default())
+            .unwrap_err()
+            .code(),
         "mesh_malformed"
     );
 }
@@ -225,9 +251,15 @@ fn broken_files_are_refused_by_name() {
     assert_eq!(missing.code(), "mesh_unreadable");
     assert_eq!(read(Path::new("part.step"), &METRES).unwrap_err().code(), "mesh_format");
     let empty = b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n";
-    assert_eq!(read_bytes(Format::Ply, empty, &METRES).unwrap_err().code(), "mesh_empty");
+    assert_eq!(
+        read_bytes(Format::Ply, empty, &METRES).unwrap_err().code(),
+        "mesh_empty"
+    );
     let vast = b"ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n";
-    assert_eq!(read_bytes(Format::Ply, vast, &METRES).unwrap_err().code(), "mesh_malformed");
+    assert_eq!(
+        read_bytes(Format::Ply, vast, &METRES).unwrap_err().code(),
+        "mesh_malformed"
+    );
     for format in [Format::Stl, Format::Obj, Format::Ply, Format::Gltf] {
         assert!(read_bytes(format, b"glTF nonsense \xff\x00", &METRES).is_err());
     }
