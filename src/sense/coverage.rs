@@ -151,5 +151,12 @@ impl View<'_> {
 fn window(middle: f64, reach: f64, size: u32) -> std::ops::Range<usize> {
     let first = (middle - 0.5 - reach).ceil().max(0.0);
     let last = (middle - 0.5 + reach).floor().min(f64::from(size) - 1.0);
-    if first <= last { first as usize..last as usize + 1 } else { 0..0 }
+    if first <= last {
+        first as usize..last as usize + 1
+    } else {
+        0..0
+    }
 }
+
+#[cfg(test)]
+mod tests;

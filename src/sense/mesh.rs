@@ -130,20 +130,27 @@ impl Mesh {
         total / (4.0 * std::f64::consts::PI)
     }
 
-    /// Number of directed edges whose reverse is missing, corners at equal
-    /// positions counted as one: 0 for a closed mesh of consistent winding.
+    /// Number of directed edges whose reverse is missing: 0 for a closed mesh
+    /// of consistent winding. Corners within a millionth of the largest extent
+    /// count as one, since files round.
     pub fn open_edges(&self) -> usize {
-        let mut welded: HashMap<[u64; 3], u32> = HashMap::new();
+        let bounds = self.bounds();
+        let grain = (bounds.size().max() * 1e-6).max(f64::MIN_POSITIVE);
+        let mut welded: HashMap<[i64; 3], u32> = HashMap::new();
         let mut name = |p: &Point| {
             let next = welded.len() as u32;
+            let cell = (p - bounds.min) / grain;
             *welded
-                .entry([p.x, p.y, p.z].map(|c| (c + 0.0).to_bits()))
+                .entry([cell.x, cell.y, cell.z].map(|c| c.round() as i64))
                 .or_insert(next)
         };
         let mut balance: HashMap<(u32, u32), i64> = HashMap::new();
         for k in 0..self.triangles.len() {
             let ids = self.corners(k).map(|p| name(&p));
             for (a, b) in [(ids[0], ids[1]), (ids[1], ids[2]), (ids[2], ids[0])] {
+                if a == b {
+                    continue;
+                }
                 let (key, sign) = if a < b { ((a, b), 1) } else { ((b, a), -1) };
                 *balance.entry(key).or_insert(0) += sign;
             }

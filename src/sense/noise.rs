@@ -165,3 +165,6 @@ fn normal_pair(random: &mut impl Rng) -> (f64, f64) {
     let (sine, cosine) = (std::f64::consts::TAU * b).sin_cos();
     (radius * cosine, radius * sine)
 }
+
+#[cfg(test)]
+mod tests;

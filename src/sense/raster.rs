@@ -120,3 +120,6 @@ impl<'a> Visibility<'a> {
         self.image.ray((k % width) as f64 + 0.5, (k / width) as f64 + 0.5)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -120,3 +120,6 @@ impl Simulator {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

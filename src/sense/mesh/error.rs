@@ -88,6 +88,8 @@ pub enum MeshWarning {
     DegenerateFaces(usize),
     /// The mesh is not closed: edges with a face on one side only.
     OpenEdges(usize),
+    /// A material or image that the file refers to cannot be used.
+    MissingFile(PathBuf),
 }
 
 impl fmt::Display for MeshWarning {
@@ -95,6 +97,11 @@ impl fmt::Display for MeshWarning {
         match self {
             Self::DegenerateFaces(n) => write!(f, "{n} faces without area were left out"),
             Self::OpenEdges(n) => write!(f, "the mesh is not closed: {n} edges are open"),
+            Self::MissingFile(path) => write!(
+                f,
+                "`{}` is missing or cannot be used; its faces have no texture",
+                path.display()
+            ),
         }
     }
 }

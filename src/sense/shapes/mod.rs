@@ -46,3 +46,8 @@ fn from_file(shape: &Call, base: &Path) -> Result<Mesh, SceneError> {
     };
     Ok(mesh::read(&base.join(file), &options)?)
 }
+
+#[cfg(test)]
+pub(in crate::sense) mod testing;
+#[cfg(test)]
+mod tests;
