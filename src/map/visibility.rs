@@ -9,6 +9,7 @@
 
 use super::clearance::{Axis, Block, Clearance};
 use super::grid::{Grid, Voxel};
+use super::walk::each;
 use crate::geometry::Point;
 
 /// What can be seen of a space in one state of its map. Shared by threads.
@@ -252,10 +253,4 @@ impl Line {
         let along = |k: usize| f64::from(self.corner[k] + (self.at >> (2 * k) & 3) as i32 - self.target[k]);
         (0..3).map(|k| along(k) * along(k)).sum()
     }
-}
-
-/// One value an axis; unlike `array::map` it always becomes straight code.
-#[inline(always)]
-fn each<T>(value: impl Fn(usize) -> T) -> [T; 3] {
-    [value(0), value(1), value(2)]
 }
