@@ -1,6 +1,6 @@
 //! Times of the map: inserting dense frames, sight lines, rear sides.
 //!
-//! `cargo bench --bench map`. Every pixel returns: what misses the object, a
+//! `cargo bench --bench map [-- VOXEL]`, the voxel's edge in metres. Every pixel returns: what misses the object, a
 //! heap of balls, meets a backdrop of radius 2 m. Set `RAYON_NUM_THREADS=1` for
 //! single-thread figures; only compare numbers of one run.
 
@@ -24,7 +24,11 @@ const BALLS: [([f64; 3], f64); 5] = [
 fn main() {
     let eyes = fibonacci(32, 1.2);
     let frames: Vec<_> = eyes.iter().map(|eye| view_from(*eye)).collect();
+    let only: Option<f64> = std::env::args().nth(1).and_then(|a| a.parse().ok());
     for (size, voxel) in [(0.6, 0.01), (1.0, 0.005), (2.0, 0.002)] {
+        if only.is_some_and(|v| v != voxel) {
+            continue;
+        }
         println!("space {size} m, voxel {voxel} m");
         let map = insertion(size, voxel, &frames);
         decision(&map);

@@ -22,13 +22,33 @@ pub(super) enum Block {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Clearance {
     /// First cell of the box.
-    pub low: [i32; 3],
+    low: [i32; 3],
     /// First cell beyond the box; equal to `low` where nothing is occupied.
-    pub high: [i32; 3],
+    high: [i32; 3],
     /// Distance between neighbours in `entries`, which have a border of one.
     strides: [usize; 3],
     entries: Vec<u32>,
     words: Vec<u64>,
+}
+
+/// One axis of the box of occupied blocks; reversed, cell c is −1 − c.
+#[derive(Clone, Copy)]
+pub(super) struct Axis {
+    /// First cell of the box.
+    pub low: i32,
+    /// First cell beyond it.
+    pub high: i32,
+    /// Between the places of neighbouring blocks.
+    pub stride: i64,
+    base: i64,
+}
+
+impl Axis {
+    /// What a cell adds to the place of its block.
+    #[inline(always)]
+    pub fn place(&self, cell: i32) -> i64 {
+        self.base + i64::from(cell >> 2) * self.stride
+    }
 }
 
 impl Clearance {
@@ -59,19 +79,39 @@ impl Clearance {
         self.words.is_empty()
     }
 
-    /// The block of a cell in the box.
+    /// The block at a place: the sum of its places along the axes.
     #[inline(always)]
-    pub fn block(&self, cell: [i32; 3]) -> Block {
-        match self.entries[self.place(cell)] {
+    pub fn block(&self, place: usize) -> Block {
+        match self.entries[place] {
             d if d < FIRST_WORD => Block::Clear(d as i32),
             i => Block::Occupied(self.words[(i - FIRST_WORD) as usize]),
         }
     }
 
+    /// An axis of the box, reversed where a line descends along it.
     #[inline(always)]
+    pub fn axis(&self, k: usize, reversed: bool) -> Axis {
+        let (low, high, stride) = (self.low[k], self.high[k], self.strides[k] as i64);
+        let base = i64::from(low >> 2) * -stride;
+        if reversed {
+            Axis {
+                low: -high,
+                high: -low,
+                stride: -stride,
+                base,
+            }
+        } else {
+            Axis {
+                low,
+                high,
+                stride,
+                base: base + stride,
+            }
+        }
+    }
+
     fn place(&self, cell: [i32; 3]) -> usize {
-        let along = |k: usize| (((cell[k] - self.low[k]) >> 2) + 1) as usize * self.strides[k];
-        along(0) + along(1) + along(2)
+        (0..3).map(|k| self.axis(k, false).place(cell[k])).sum::<i64>() as usize
     }
 
     /// Largest-norm distances from the given places, by two sweeps (Rosenfeld

@@ -1,6 +1,6 @@
 //! Voxel numbering of a bounded space.
 
-use super::walk::Walk;
+use super::walk::{Walk, each};
 use crate::geometry::Point;
 use crate::rules::Space;
 
@@ -100,7 +100,7 @@ impl Grid {
 
     /// A point in units of voxels from the origin of the grid.
     pub(super) fn in_voxels(&self, p: &Point) -> [f64; 3] {
-        [0, 1, 2].map(|k| (p[k] - self.origin[k]) / self.voxel)
+        each(|k| (p[k] - self.origin[k]) / self.voxel)
     }
 }
 

@@ -7,8 +7,9 @@
 //! A line that passes exactly through an edge or a corner crosses x before y
 //! and y before z, so a voxel that it only touches there can hide its target.
 
-use super::clearance::{Block, Clearance};
+use super::clearance::{Axis, Block, Clearance};
 use super::grid::{Grid, Voxel};
+use super::walk::each;
 use crate::geometry::Point;
 
 /// What can be seen of a space in one state of its map. Shared by threads.
@@ -61,17 +62,20 @@ impl Sight<'_> {
 
     fn is_clear(&self, mut line: Line) -> bool {
         loop {
-            let block = self.clearance.block(line.cell());
-            let gone_on = match block {
-                Block::Clear(distance) => line.leap(distance),
-                Block::Occupied(word) => match line.cross(word, self.tolerance) {
-                    Crossing::Hidden => return false,
-                    Crossing::Left => true,
-                    Crossing::Ended => false,
-                },
+            let word = match self.clearance.block(line.place as usize) {
+                Block::Clear(1) => 0,
+                Block::Clear(distance) => {
+                    if !line.leap(distance) {
+                        return true;
+                    }
+                    continue;
+                }
+                Block::Occupied(word) => word,
             };
-            if !gone_on {
-                return true;
+            match line.step_through(word, self.tolerance) {
+                Step::Left => {}
+                Step::Ended => return true,
+                Step::Hidden => return false,
             }
         }
     }
@@ -80,24 +84,45 @@ impl Sight<'_> {
 /// The time at which a line reaches the eye.
 const ONE: u64 = 1 << 62;
 
-/// A line from the centre of a voxel, counted in borders crossed along each
-/// axis. The n-th border of an axis is crossed at (2n − 1) · `half`, in whole
-/// units, so that leaps and steps agree exactly.
+/// A line from the centre of a voxel to an eye.
+///
+/// Axes along which it descends are reversed (cell c is −1 − c there), so that
+/// it only ever ascends. The n-th border of axis k is crossed at (2n − 1) ·
+/// `half` + k, in whole units, `half` being a multiple of 4: leaps and steps
+/// agree exactly, no two times are equal, and a time names its axis.
 struct Line {
-    target: [i32; 3],
-    step: [i32; 3],
+    axes: [Axis; 3],
     half: [u64; 3],
     /// Borders a unit of time.
     rate: [f64; 3],
-    crossed: [i32; 3],
+    target: [i32; 3],
+    /// First cell of the current block.
+    corner: [i32; 3],
+    /// The current cell in its block, two bits an axis.
+    at: u32,
+    /// Place of the current block.
+    place: i64,
+    /// When the next border of each axis is crossed.
+    next: [u64; 3],
+    /// Turns bits of a block's word that count along reversed axes.
+    turned: u32,
     /// When it has left the box of occupied blocks or reached the eye.
     leave: u64,
 }
 
-enum Crossing {
-    Hidden,
+/// How the way through a block ends.
+enum Step {
     Left,
     Ended,
+    Hidden,
+}
+
+/// The crossing of a border, counted from 1.
+#[derive(Clone, Copy)]
+struct Crossing {
+    axis: usize,
+    border: i32,
+    time: u64,
 }
 
 impl Line {
@@ -105,137 +130,127 @@ impl Line {
     /// it misses the box, or the eye is nowhere.
     #[inline]
     fn entering(clearance: &Clearance, target: [i32; 3], eye: [f64; 3]) -> Option<Self> {
-        let along = [0, 1, 2].map(|k| eye[k] - (f64::from(target[k]) + 0.5));
+        let along = each(|k| eye[k] - (f64::from(target[k]) + 0.5));
         if !along.iter().all(|d| d.is_finite()) {
             return None;
         }
+        let down = each(|k| along[k] < 0.0);
+        let target = each(|k| if down[k] { !target[k] } else { target[k] });
         let mut line = Self {
+            axes: each(|k| clearance.axis(k, down[k])),
+            half: each(|k| (ONE as f64 * 0.5 / along[k].abs()).min(ONE as f64) as u64 & !3),
+            rate: each(|k| along[k].abs() * (1.0 / ONE as f64)),
             target,
-            step: along.map(|d| if d < 0.0 { -1 } else { 1 }),
-            half: along.map(|d| (ONE as f64 * 0.5 / d.abs()).min(ONE as f64) as u64),
-            rate: along.map(|d| d.abs() / ONE as f64),
-            crossed: [0; 3],
+            corner: [0; 3],
+            at: 0,
+            place: 0,
+            next: [0; 3],
+            turned: (0..3).map(|k| u32::from(down[k]) * (3 << (2 * k))).sum(),
             leave: ONE,
         };
-        let (mut enter, mut axis, mut borders) = (0, 0, 0);
+        line.enter().then_some(line)
+    }
+
+    /// Goes to where the line enters the box; `false` where it misses it.
+    #[inline(always)]
+    fn enter(&mut self) -> bool {
+        let mut entry: Option<Crossing> = None;
         for k in 0..3 {
-            let (first, beyond) = line.span(k, clearance.low[k], clearance.high[k]);
+            let first = self.axes[k].low - self.target[k];
+            let beyond = self.axes[k].high - self.target[k];
             if beyond <= 0 {
-                return None;
+                return false;
             }
-            line.leave = line.leave.min(line.time(k, beyond));
-            if first > 0 && line.time(k, first) > enter {
-                (enter, axis, borders) = (line.time(k, first), k, first);
+            self.leave = self.leave.min(self.crossing(k, beyond).time);
+            if first > 0 && entry.is_none_or(|e| self.crossing(k, first).time > e.time) {
+                entry = Some(self.crossing(k, first));
             }
         }
-        if enter >= line.leave {
-            return None;
+        match entry {
+            None => self.stand_in(self.target),
+            Some(entry) if entry.time < self.leave => self.jump(entry),
+            Some(_) => return false,
         }
-        if borders > 0 {
-            line.jump(axis, borders, enter);
-        }
-        Some(line)
-    }
-
-    /// Borders crossed on reaching the cells from `low` to before `high`, and
-    /// on having left them.
-    #[inline(always)]
-    fn span(&self, k: usize, low: i32, high: i32) -> (i32, i32) {
-        let at = self.target[k];
-        if self.step[k] > 0 {
-            (low - at, high - at)
-        } else {
-            (at - high + 1, at - low + 1)
-        }
-    }
-
-    /// When a border, counted from 1, is crossed.
-    #[inline(always)]
-    fn time(&self, k: usize, border: i32) -> u64 {
-        self.half[k].saturating_mul(2 * border as u64 - 1)
+        true
     }
 
     #[inline(always)]
-    fn cell(&self) -> [i32; 3] {
-        [0, 1, 2].map(|k| self.target[k] + self.step[k] * self.crossed[k])
+    fn crossing(&self, axis: usize, border: i32) -> Crossing {
+        let halves = 2 * border as u64 - 1;
+        Crossing {
+            axis,
+            border,
+            time: self.half[axis].saturating_mul(halves) | axis as u64,
+        }
     }
 
-    /// Leaves a cube of clear blocks around the current one; `false` where the
-    /// line ends in it.
+    /// Leaves the cube of blocks nearer than `distance` to the current one;
+    /// `false` where the line ends in it.
     #[inline(always)]
     fn leap(&mut self, distance: i32) -> bool {
-        let cell = self.cell();
-        let exit = [0, 1, 2].map(|k| {
-            let block = cell[k] >> 2;
-            self.span(k, (block - distance + 1) * 4, (block + distance) * 4).1
-        });
-        let times = [0, 1, 2].map(|k| self.time(k, exit[k]));
-        let first = earliest(times);
-        let axis = usize::from(first[1]) + 2 * usize::from(first[2]);
-        let time = times[0].min(times[1]).min(times[2]);
-        if time < self.leave {
-            self.jump(axis, exit[axis], time);
+        let [x, y, z] = each(|k| self.crossing(k, self.corner[k] + 4 * distance - self.target[k]));
+        let nearer = if y.time < x.time { y } else { x };
+        let exit = if z.time < nearer.time { z } else { nearer };
+        if exit.time < self.leave {
+            self.jump(exit);
         }
-        time < self.leave
+        exit.time < self.leave
     }
 
-    /// Goes to where a border of an axis is crossed.
+    /// Goes to a crossing ahead.
     #[inline(always)]
-    fn jump(&mut self, axis: usize, border: i32, time: u64) {
-        for k in 0..3 {
-            self.crossed[k] = if k == axis {
-                border
-            } else {
-                self.borders_by(k, time, k < axis)
-            };
-        }
+    fn jump(&mut self, to: Crossing) {
+        let mut cell = each(|k| self.target[k] + self.borders_by(k, to.time));
+        cell[to.axis] = self.target[to.axis] + to.border;
+        self.stand_in(cell);
     }
 
-    /// Borders of an axis crossed by a time, itself included or not.
     #[inline(always)]
-    fn borders_by(&self, k: usize, time: u64, inclusive: bool) -> i32 {
-        let before = time + u64::from(inclusive);
-        // The estimate is off by one at most.
-        let n = (time as i64 as f64 * self.rate[k] + 0.5) as i32;
-        n + i32::from(self.time(k, n + 1) < before) - i32::from(n > 0 && self.time(k, n) >= before)
+    fn stand_in(&mut self, cell: [i32; 3]) {
+        let [x, y, z] = each(|k| (cell[k] & 3) << (2 * k));
+        self.at = (x | y | z) as u32;
+        self.corner = each(|k| cell[k] & !3);
+        self.next = each(|k| self.crossing(k, cell[k] - self.target[k] + 1).time);
+        let [x, y, z] = each(|k| self.axes[k].place(cell[k]));
+        self.place = x + y + z;
     }
 
-    /// Steps through a block with occupied voxels.
+    /// Borders of an axis crossed by a time, from an estimate that is right or
+    /// one too low.
     #[inline(always)]
-    fn cross(&mut self, word: u64, tolerance: f64) -> Crossing {
-        let mut at = self.cell().map(|c| c & 3);
-        let mut next = [0, 1, 2].map(|k| self.time(k, self.crossed[k] + 1));
+    fn borders_by(&self, k: usize, time: u64) -> i32 {
+        let n = (time as i64 as f64 * self.rate[k] + (0.5 - 1e-3)) as i32;
+        n + i32::from(self.crossing(k, n + 1).time <= time)
+    }
+
+    /// Steps through the current block, to the next one.
+    #[inline(always)]
+    fn step_through(&mut self, word: u64, tolerance: f64) -> Step {
         loop {
-            let bit = at[0] | at[1] << 2 | at[2] << 4;
-            if word >> bit & 1 == 1 && self.distance_squared() > tolerance {
-                return Crossing::Hidden;
+            if word >> (self.at ^ self.turned) & 1 == 1 && self.distance_squared() > tolerance {
+                return Step::Hidden;
             }
-            if next[0].min(next[1]).min(next[2]) >= self.leave {
-                return Crossing::Ended;
+            let time = self.next[0].min(self.next[1]).min(self.next[2]);
+            if time >= self.leave {
+                return Step::Ended;
             }
-            // Without branches: which axis is next cannot be foretold.
-            let first = earliest(next);
-            for k in 0..3 {
-                next[k] += u64::from(first[k]) * 2 * self.half[k];
-                self.crossed[k] += i32::from(first[k]);
-                at[k] += i32::from(first[k]) * self.step[k];
+            // Without branches on the axis: which is next cannot be foretold.
+            self.next = each(|k| self.next[k] + if self.next[k] == time { 2 * self.half[k] } else { 0 });
+            let axis = (time & 3) as usize;
+            let last = 3 << (2 * axis);
+            if self.at & last == last {
+                self.at ^= last;
+                self.corner[axis] += 4;
+                self.place += self.axes[axis].stride;
+                return Step::Left;
             }
-            if (at[0] | at[1] | at[2]) & !3 != 0 {
-                return Crossing::Left;
-            }
+            self.at += 1 << (2 * axis);
         }
     }
 
     /// From the centre of the target to that of the current voxel, in voxels.
     fn distance_squared(&self) -> f64 {
-        self.crossed.iter().map(|&n| f64::from(n) * f64::from(n)).sum()
+        let along = |k: usize| f64::from(self.corner[k] + (self.at >> (2 * k) & 3) as i32 - self.target[k]);
+        (0..3).map(|k| along(k) * along(k)).sum()
     }
-}
-
-/// Which of three times comes first; x before y before z where equal.
-#[inline(always)]
-fn earliest([x, y, z]: [u64; 3]) -> [bool; 3] {
-    let first = (x <= y) & (x <= z);
-    let second = !first & (y <= z);
-    [first, second, !first & !second]
 }

@@ -25,22 +25,18 @@ impl Walk {
     /// in units of voxels. `None` where no part does or an end is not finite.
     #[inline]
     pub fn clipped(size: [u32; 3], from: [f64; 3], to: [f64; 3]) -> Option<Self> {
-        let along = [0, 1, 2].map(|k| to[k] - from[k]);
+        let along = each(|k| to[k] - from[k]);
         let (enter, leave) = clip(size, from, along)?;
-        let cell_at = |t: f64| {
-            [0, 1, 2].map(|k| {
-                let c = from[k] + t * along[k];
-                c.clamp(0.0, f64::from(size[k]) - 1.0) as usize
-            })
-        };
+        let cell_at = |t: f64| each(|k| inside(from[k] + t * along[k], size[k]));
         let end = if leave == 1.0 {
-            cell_at_point(size, to)
+            each(|k| inside(to[k], size[k]))
         } else {
             cell_at(leave)
         };
         Some(Self::between(cell_at(enter), end, from, along))
     }
 
+    #[inline(always)]
     fn between(cell: [usize; 3], end: [usize; 3], from: [f64; 3], along: [f64; 3]) -> Self {
         let (mut step, mut next, mut period) = ([0; 3], [u64::MAX; 3], [0; 3]);
         for k in 0..3 {
@@ -100,11 +96,19 @@ fn clip(size: [u32; 3], from: [f64; 3], along: [f64; 3]) -> Option<(f64, f64)> {
         enter = enter.max(a.min(b));
         leave = leave.min(a.max(b));
     }
-    let finite = along.iter().all(|d| d.is_finite());
+    let finite = along[0].is_finite() && along[1].is_finite() && along[2].is_finite();
     (finite && enter < leave).then_some((enter, leave))
 }
 
-#[inline]
-fn cell_at_point(size: [u32; 3], p: [f64; 3]) -> [usize; 3] {
-    [0, 1, 2].map(|k| p[k].clamp(0.0, f64::from(size[k]) - 1.0) as usize)
+/// The cell of a coordinate, brought into the grid first: then it is not
+/// negative and truncation is the floor.
+#[inline(always)]
+fn inside(coordinate: f64, size: u32) -> usize {
+    coordinate.max(0.0).min(f64::from(size - 1)) as u32 as usize
+}
+
+/// One value an axis; unlike `array::map` it always becomes straight code.
+#[inline(always)]
+pub(super) fn each<T>(value: impl Fn(usize) -> T) -> [T; 3] {
+    [value(0), value(1), value(2)]
 }
