@@ -18,7 +18,7 @@ const SIZE: [u32; 3] = [5, 4, 3];
 
 /// A base whose first edge predicts an upright side somewhere in the space.
 fn any_base() -> impl Strategy<Value = Polygon> {
-    (0.3..4.5, 0.3..3.5, 0.2..2.0, 0.0..6.28).prop_map(|(x, y, z, turn): (f64, f64, f64, f64)| {
+    (0.3..4.5, 0.3..3.5, 0.2..2.0, 0.0..std::f64::consts::TAU).prop_map(|(x, y, z, turn): (f64, f64, f64, f64)| {
         let at = |u: f64, v: f64| {
             Point::new(
                 x + turn.cos() * u - turn.sin() * v,
@@ -33,7 +33,7 @@ fn any_base() -> impl Strategy<Value = Polygon> {
 
 /// Views from around the space at its middle, none on a line through corners.
 fn any_views() -> impl Strategy<Value = Vec<Pose>> {
-    let eye = (0.0..6.28, -1.2..1.2, 4.5..9.0).prop_map(|(turn, up, far): (f64, f64, f64)| {
+    let eye = (0.0..std::f64::consts::TAU, -1.2..1.2, 4.5..9.0).prop_map(|(turn, up, far): (f64, f64, f64)| {
         let middle = Point::new(2.5, 2.0, 1.5);
         let out = Vector::new(turn.cos() * up.cos(), turn.sin() * up.cos(), up.sin());
         look_at(middle + out * far, middle + Vector::new(0.013, 0.029, 0.017))
