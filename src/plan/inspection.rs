@@ -7,9 +7,11 @@
 //! - evidence: a measured point lies within ξ of its centre, or (setting
 //!   `observed`) it was measured free;
 //! - a look: x is inside the images, the depth range and the detector's
-//!   envelope, and not hidden. An occupied voxel within ξ of x does not hide
-//!   it, for by eq. 3 a point that near inspects it: a surface measured just in
-//!   front of its predicted place would otherwise hide that place for ever.
+//!   envelope, and not hidden. Where a measured point lies within ξ of x, an
+//!   occupied voxel within ξ does not hide it, for by eq. 3 that point inspects
+//!   it: a surface measured just in front of its predicted place would
+//!   otherwise hide that place for ever. Where none does, every occupied voxel
+//!   hides, or x would stay reachable and never be inspected.
 //!
 //! A detector that needs the feature whole counts a look only when at least
 //! ξ_ned of PV_ij passes all of this in that one view. A voxel of several
@@ -126,7 +128,8 @@ pub fn reachable<W: World + ?Sized>(
 ) -> Vec<bool> {
     let sees = |v: &PredictedVoxel| {
         let faces = |n: &Vector| view.could_detect(&v.centre, n, envelope);
-        v.normals.iter().any(faces) && world.visible(view.eye(), v.voxel, near)
+        let tolerance = || if world.measured_within(&v.centre, near) { near } else { 0.0 };
+        v.normals.iter().any(faces) && world.visible(view.eye(), v.voxel, tolerance())
     };
     voxels.iter().enumerate().map(|(k, v)| wanted(k) && sees(v)).collect()
 }
