@@ -107,24 +107,28 @@ fn states(map: &Map) -> Vec<Occupancy> {
 }
 
 /// A map with the given voxels occupied, each seen from its own direction.
-fn world_of(cells: &[([i64; 3], [i8; 3])]) -> Map {
-    let mut map = new_map();
+fn world_of(voxel: f64, cells: &[([i64; 3], [i8; 3])]) -> Map {
+    let mut map = Map::new(&Space { voxel, ..space() }, SensorModel::default()).unwrap();
     for (cell, side) in cells {
         let end = map.grid().centre(map.grid().at(*cell).unwrap());
-        let away = Vector::from(side.map(f64::from)) * 0.004 + Vector::new(0.003, 0.002, 0.001);
+        let away = (Vector::from(side.map(f64::from)) * 0.08 + Vector::new(0.06, 0.04, 0.02)) * voxel;
         map.insert(&one_ray(end + away, end));
     }
     map
 }
 
+/// A crowded world of 12³ voxels or a sparse one of 96³, where lines leap far.
 fn world() -> impl Strategy<Value = Map> {
-    let voxel = (prop::array::uniform3(0..12_i64), prop::array::uniform3(-1..=1_i8));
-    prop::collection::vec(voxel, 0..40).prop_map(|cells| world_of(&cells))
+    let cells = |n: i64| {
+        let voxel = (prop::array::uniform3(0..n), prop::array::uniform3(-1..=1_i8));
+        prop::collection::vec(voxel, 0..60).prop_map(move |cells| world_of(SPACE / n as f64, &cells))
+    };
+    prop_oneof![cells(12), cells(96)]
 }
 
-fn naively_visible(map: &Map, eye: &Point, target: Voxel, tolerance: f64) -> bool {
+fn naively_visible(map: &Map, occupied: &[Voxel], eye: &Point, target: Voxel, tolerance: f64) -> bool {
     let centre = map.grid().centre(target);
-    !map.occupied().iter().any(|&o| {
+    !occupied.iter().any(|&o| {
         let far = (map.grid().centre(o) - centre).norm() > tolerance + 1e-9;
         o != target && far && passes(&centre, eye, &cube(map, o))
     })
@@ -184,8 +188,15 @@ proptest! {
         map in world(), eye in eye(), tolerance in prop_oneof![Just(0.0), 0.0..0.2_f64], from in 0..64_u32,
     ) {
         let sight = map.visibility().from(&eye, tolerance);
-        for v in voxels(&map).skip(from as usize).step_by(7) {
-            prop_assert_eq!(sight.sees(v), naively_visible(&map, &eye, v, tolerance), "{:?}", v);
+        let occupied = map.occupied();
+        let some = voxels(&map).skip(from as usize).step_by(map.grid().len() as usize / 250);
+        // Behind every occupied voxel, where lines are met.
+        let behind = occupied.iter().filter_map(|&o| {
+            let centre = map.grid().centre(o);
+            map.grid().containing(&(centre + (centre - eye) * 0.1))
+        });
+        for v in some.chain(behind) {
+            prop_assert_eq!(sight.sees(v), naively_visible(&map, &occupied, &eye, v, tolerance), "{:?}", v);
         }
     }
 
@@ -406,7 +417,7 @@ fn a_wall_hides_what_is_behind_it_and_its_own_thickness_is_tolerated() {
     let wall: Vec<_> = (0..12)
         .flat_map(|y| (0..12).map(move |z| ([6, y, z], [0; 3])))
         .collect();
-    let map = world_of(&wall);
+    let map = world_of(VOXEL, &wall);
     let eye = Point::new(1.01, 0.013, 0.017);
     let sees = |x: i64, tolerance: f64| map.visible(&eye, map.grid().at([x, 5, 5]).unwrap(), tolerance);
     assert!(sees(9, 0.0) && sees(6, 0.0) && !sees(5, 0.0) && !sees(2, 0.0));
