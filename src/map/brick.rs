@@ -1,8 +1,9 @@
 //! A brick of 8³ voxels: log-odds, state bits, and what was seen of surfaces.
 
+use super::frame::Reading;
 use super::layout::{Address, Bits, VOXELS, WORDS};
 use super::log_odds::LogOdds;
-use crate::geometry::Point;
+use super::points::Points;
 
 /// 8³ voxels.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,10 +26,8 @@ pub(super) struct Brick {
 pub(super) struct Surface {
     /// Voxels hit by the frame that is being inserted.
     hits: Bits,
-    /// Voxels with a measured point.
-    present: Bits,
-    /// Their first measured points, by place in the brick.
-    points: Vec<Point>,
+    /// What was measured there.
+    pub points: Points,
     /// Faces turned away from an eye that hit the voxel: bits −x +x −y +y −z +z.
     pub far: [u8; VOXELS],
 }
@@ -52,11 +51,12 @@ impl Brick {
     }
 
     /// Notes a reading that ends in a voxel of the brick.
-    pub fn hit(&mut self, address: Address, point: Point, far: u8) {
+    pub fn hit(&mut self, reading: &Reading, far: u8) {
+        let address = reading.address;
         let surface = self.surface.get_or_insert_default();
         surface.hits[address.word()] |= address.bit();
         surface.far[address.local()] |= far;
-        surface.keep(address, point);
+        surface.points.keep(address, reading.octant, reading.point);
     }
 
     /// Ends a frame: hit voxels become likelier, missed ones that were not hit
@@ -97,40 +97,9 @@ impl Default for Surface {
     fn default() -> Self {
         Self {
             hits: [0; WORDS],
-            present: [0; WORDS],
-            points: Vec::new(),
+            points: Points::default(),
             far: [0; VOXELS],
         }
-    }
-}
-
-impl Surface {
-    /// Measured points, by place in the brick.
-    pub fn points(&self) -> impl Iterator<Item = (usize, &Point)> {
-        let places = self.present.iter().enumerate();
-        let places = places.flat_map(|(word, &set)| super::layout::ones(set).map(move |bit| word * 64 + bit));
-        places.zip(&self.points)
-    }
-
-    /// Measured points of one word of the brick.
-    pub fn points_of_word(&self, word: usize) -> &[Point] {
-        let from = self.rank(word);
-        &self.points[from..from + self.present[word].count_ones() as usize]
-    }
-
-    /// Keeps the point of a voxel that has none.
-    fn keep(&mut self, address: Address, point: Point) {
-        let word = address.word();
-        if self.present[word] & address.bit() == 0 {
-            let before = (self.present[word] & (address.bit() - 1)).count_ones() as usize;
-            self.points.insert(self.rank(word) + before, point);
-            self.present[word] |= address.bit();
-        }
-    }
-
-    /// Number of points in the words before one.
-    fn rank(&self, word: usize) -> usize {
-        self.present[..word].iter().map(|w| w.count_ones() as usize).sum()
     }
 }
 

@@ -26,6 +26,8 @@ pub(super) struct Frame {
 pub(super) struct Reading {
     /// The voxel it ends in.
     pub address: Address,
+    /// The octant of that voxel, 0 to 7.
+    pub octant: u8,
     /// The measured point, world axes.
     pub point: Point,
 }
@@ -91,7 +93,9 @@ impl Tracer<'_> {
         self.mark_way(&mut walk);
         let address = self.layout.address(walk.end);
         if inside {
-            return Some(Reading { address, point });
+            let upper = |k: usize| u8::from(to[k].fract() >= 0.5) << k;
+            let octant = upper(0) | upper(1) | upper(2);
+            return Some(Reading { address, octant, point });
         }
         self.mark(address.0 / 64, address.bit());
         None

@@ -13,6 +13,7 @@ mod grid;
 mod layout;
 mod log_odds;
 mod octomap_file;
+mod points;
 mod rear_side;
 mod tags;
 mod visibility;
@@ -118,7 +119,7 @@ impl Map {
             let centre = self.grid.centre(self.layout.voxel(reading.address));
             let far = rear_side::far_faces(&eye, &centre);
             let brick = self.bricks.make(reading.address.brick());
-            brick.hit(reading.address, reading.point, far);
+            brick.hit(reading, far);
         }
         let model = self.model;
         self.bricks
@@ -145,7 +146,8 @@ impl Map {
     }
 
     /// Whether some measured point lies within `radius` metres of `p` (PC_t of
-    /// eq. 3). Of each voxel's points the first is remembered.
+    /// eq. 3). Of each voxel the first point of every octant is remembered, so
+    /// more points count than [`Map::points`] lists.
     pub fn measured_within(&self, p: &Point, radius: f64) -> bool {
         let reach = crate::geometry::Vector::repeat(radius);
         let (low, high) = (self.block_of(&(p - reach)), self.block_of(&(p + reach)));
@@ -162,7 +164,7 @@ impl Map {
         let of_brick = |b: &'_ Brick| {
             let surface = b.surface.as_deref().into_iter();
             let base = b.index * layout::VOXELS;
-            let points = surface.flat_map(move |s| s.points().map(move |(i, p)| (layout::Address(base + i), *p)));
+            let points = surface.flat_map(move |s| s.points.firsts().map(move |(i, p)| (layout::Address(base + i), p)));
             points.map(|(at, p)| (self.layout.voxel(at), p)).collect::<Vec<_>>()
         };
         let mut points: Vec<_> = self.bricks.iter().flat_map(of_brick).collect();
@@ -262,7 +264,7 @@ impl Map {
     fn points_of_block(&self, block: [usize; 3]) -> &[Point] {
         let at = self.layout.address(block.map(|b| b * 4));
         let surface = self.bricks.get(at.brick()).and_then(|b| b.surface.as_deref());
-        surface.map_or(&[], |s| s.points_of_word(at.word()))
+        surface.map_or(&[], |s| s.points.of_word(at.word()))
     }
 }
 
