@@ -15,6 +15,8 @@ pub struct Coarseness {
 
 /// Neighbouring edges within this angle are one edge, radians.
 const STRAIGHT: f64 = 0.2;
+/// A joint nearer than this to the chord over its edges is no corner, in units of the tolerance.
+const FLAT: f64 = 0.8;
 /// Edges must differ by this angle to be extended to their intersection, radians.
 const CROSSING: f64 = 0.26;
 
@@ -37,12 +39,19 @@ pub fn corners(contour: &[Flat], coarseness: Coarseness) -> Vec<Flat> {
     }
     let mut runs = runs(contour.len(), &simplified(contour, coarseness.tolerance));
     while runs.len() > 3 && reduce(contour, &mut runs, coarseness) {}
-    let lines: Vec<Line> = runs.iter().map(|r| fitted(contour, *r, coarseness)).collect();
-    (0..runs.len())
-        .map(|k| {
-            let before = (k + runs.len() - 1) % runs.len();
-            corner(contour, runs[before], runs[k], &lines[before], &lines[k], coarseness)
-        })
+    meetings(contour, &runs, &lines(contour, &runs, coarseness), coarseness)
+}
+
+fn lines(contour: &[Flat], runs: &[Run], c: Coarseness) -> Vec<Line> {
+    runs.iter().map(|r| fitted(contour, *r, c)).collect()
+}
+
+/// The first corner of each edge.
+fn meetings(contour: &[Flat], runs: &[Run], lines: &[Line], c: Coarseness) -> Vec<Flat> {
+    let n = runs.len();
+    (0..n)
+        .map(|k| ((k + n - 1) % n, k))
+        .map(|(a, b)| corner(contour, runs[a], runs[b], &lines[a], &lines[b], c))
         .collect()
 }
 
@@ -66,15 +75,13 @@ fn crossing(a: &Line, b: &Line) -> Option<Flat> {
 /// Takes out one artefact: a bend that is none, or an edge that is too short.
 fn reduce(contour: &[Flat], runs: &mut Vec<Run>, c: Coarseness) -> bool {
     let n = runs.len();
-    let lines: Vec<Line> = runs.iter().map(|r| fitted(contour, *r, c)).collect();
+    let lines = lines(contour, runs, c);
+    let corners = meetings(contour, runs, &lines, c);
     let bend = |k: usize, l: usize| {
-        lines[k]
-            .direction
-            .perp(&lines[l].direction)
-            .atan2(lines[k].direction.dot(&lines[l].direction))
-            .abs()
+        let (a, b) = (lines[k].direction, lines[l].direction);
+        a.perp(&b).atan2(a.dot(&b)).abs()
     };
-    let length = |k: usize| (contour[(runs[k].start + runs[k].len) % contour.len()] - contour[runs[k].start]).norm();
+    let length = |k: usize| (corners[(k + 1) % n] - corners[k]).norm();
     let shortest = (0..n).min_by(|&a, &b| length(a).total_cmp(&length(b))).unwrap_or(0);
     if length(shortest) < c.shortest {
         let (before, after) = ((shortest + n - 1) % n, (shortest + 1) % n);
@@ -88,10 +95,13 @@ fn reduce(contour: &[Flat], runs: &mut Vec<Run>, c: Coarseness) -> bool {
         }
         return true;
     }
+    // A joint close to the chord over both its edges is no corner either.
+    let bulge = |k: usize| off_segment(&corners[(k + 1) % n], &corners[k], &corners[(k + 2) % n]) / c.tolerance;
+    let cornerness = |k: usize| (bend(k, (k + 1) % n) / STRAIGHT).min(bulge(k) / FLAT);
     let straightest = (0..n)
-        .min_by(|&a, &b| bend(a, (a + 1) % n).total_cmp(&bend(b, (b + 1) % n)))
+        .min_by(|&a, &b| cornerness(a).total_cmp(&cornerness(b)))
         .unwrap_or(0);
-    let straight = bend(straightest, (straightest + 1) % n) < STRAIGHT;
+    let straight = cornerness(straightest) < 1.0;
     if straight {
         unite(contour.len(), runs, straightest);
     }

@@ -27,7 +27,7 @@ pub fn marker_pose(evidence: &MarkerEvidence) -> Option<Pose> {
         axes += look.pose.rotation.to_rotation_matrix().into_inner() * look.weight;
         total += look.weight;
     }
-    if !(total > 0.0) {
+    if total <= 0.0 {
         return Some(middle.pose);
     }
     let rotation = Rotation3::from_matrix(&(axes / total));

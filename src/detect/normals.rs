@@ -8,7 +8,9 @@ use super::plane_fit::Plane;
 use crate::geometry::Vector;
 
 /// Half edge of the window, pixels.
-const RADIUS: usize = 3;
+pub const RADIUS: usize = 3;
+/// Half edge of the window in noisy images, pixels.
+pub const WIDE_RADIUS: usize = 5;
 /// Fewest readings in a window.
 const LEAST: f64 = 9.0;
 /// Steeper surfaces (tangent of incidence) are taken for a jump of depth.
@@ -24,19 +26,23 @@ pub struct LocalPlane {
 }
 
 /// Local planes of the pixels that `wanted` names, from such pixels alone.
-pub fn local_planes(cloud: &Cloud, wanted: &[bool]) -> Vec<Option<LocalPlane>> {
+pub fn local_planes(cloud: &Cloud, wanted: &[bool], radius: usize) -> Vec<Option<LocalPlane>> {
     (0..wanted.len())
-        .map(|pixel| wanted[pixel].then(|| local_plane(cloud, wanted, pixel)).flatten())
+        .map(|pixel| {
+            wanted[pixel]
+                .then(|| local_plane(cloud, wanted, pixel, radius))
+                .flatten()
+        })
         .collect()
 }
 
-fn local_plane(cloud: &Cloud, wanted: &[bool], pixel: usize) -> Option<LocalPlane> {
+fn local_plane(cloud: &Cloud, wanted: &[bool], pixel: usize, radius: usize) -> Option<LocalPlane> {
     let k = &cloud.intrinsics;
     let z = cloud.depths[pixel];
-    let jump = z / k.fx * RADIUS as f64 * STEEPEST;
+    let jump = z / k.fx * radius as f64 * STEEPEST;
     let (x, y) = cloud.place(pixel);
     let mut sums = Sums::default();
-    for other in cloud.square(pixel, RADIUS) {
+    for other in cloud.square(pixel, radius) {
         let depth = cloud.depths[other];
         if wanted[other] && (depth - z).abs() <= jump {
             let (u, v) = cloud.place(other);

@@ -56,7 +56,7 @@ pub fn outline(evidence: &FaceEvidence, begin: Begin, first: Option<&Edge>) -> O
     let contour = traced(&flat, cell, evidence.grain)?;
     let coarseness = Coarseness {
         tolerance: 1.2 * evidence.grain + 0.5 * cell,
-        shortest: 2.5 * evidence.grain + cell,
+        shortest: 3.0 * evidence.grain + cell,
     };
     let found = corners(&contour, coarseness);
     let vertices = found

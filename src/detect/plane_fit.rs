@@ -71,11 +71,6 @@ impl Moments {
         self.products += d * d.transpose();
     }
 
-    /// The mean.
-    pub fn mean(&self) -> Point {
-        self.origin + self.sum / self.count.max(1.0)
-    }
-
     /// The plane of least squared distances; `None` with fewer than three
     /// points or points on one line.
     pub fn plane(&self) -> Option<Plane> {
@@ -90,7 +85,7 @@ impl Moments {
             .filter(|&k| k != smallest)
             .map(|k| eigen.eigenvalues[k])
             .fold(f64::INFINITY, f64::min);
-        if !(middle > 1e-12) {
+        if middle.is_nan() || middle <= 1e-12 {
             return None;
         }
         let normal: Vector = eigen.eigenvectors.column(smallest).into_owned();

@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 
 use super::cloud::Cloud;
-use super::normals::{LocalPlane, local_planes};
+use super::normals::{LocalPlane, RADIUS, WIDE_RADIUS, local_planes};
 use super::plane_fit::{Moments, Plane, robust_plane};
 
 /// Pixels of one plane.
@@ -27,9 +27,11 @@ const LEAST_PIXELS: usize = 20;
 /// How far a local normal may be off its region's.
 const NORMAL_COSINE: f64 = 0.9659; // 15°
 /// Bounds of the distance at which a pixel belongs to a plane, metres.
-const TOLERANCE: (f64, f64) = (0.0025, 0.012);
+const TOLERANCE: (f64, f64) = (0.0025, 0.020);
 /// Tolerance in units of the view's noise.
 const SIGMAS: f64 = 3.5;
+/// A view's noise from which normals are taken over a wider window, metres.
+const NOISY: f64 = 0.0035;
 /// Sweeps that hand border pixels to the plane they fit best.
 const SWEEPS: usize = 4;
 
@@ -70,17 +72,20 @@ impl<'a> Growth<'a> {
 
     /// Grows regions over the wanted pixels, the flattest seeds first.
     fn round(&mut self, wanted: &[bool]) {
-        let locals = local_planes(self.cloud, wanted);
+        let mut locals = local_planes(self.cloud, wanted, RADIUS);
+        let spread = median_rms(&locals);
+        if spread > NOISY {
+            locals = local_planes(self.cloud, wanted, WIDE_RADIUS);
+        }
+        if self.planes.is_empty() {
+            self.tolerance = (SIGMAS * spread).clamp(TOLERANCE.0, TOLERANCE.1);
+        }
         let mut seeds: Vec<(f64, usize)> = locals
             .iter()
             .enumerate()
             .filter_map(|(p, l)| Some((l.as_ref()?.rms, p)))
             .collect();
         seeds.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        if self.planes.is_empty() && !seeds.is_empty() {
-            let typical = seeds[seeds.len() / 2].0;
-            self.tolerance = (SIGMAS * typical).clamp(TOLERANCE.0, TOLERANCE.1);
-        }
         let mut seen = vec![NONE; self.labels.len()];
         for (turn, &(rms, seed)) in seeds.iter().enumerate() {
             if self.labels[seed] == NONE && rms <= self.tolerance {
@@ -223,6 +228,13 @@ impl<'a> Growth<'a> {
         regions.sort_by(|a, b| b.pixels.len().cmp(&a.pixels.len()).then(a.pixels.cmp(&b.pixels)));
         regions
     }
+}
+
+/// The typical spread within a window: the view's noise, metres.
+fn median_rms(locals: &[Option<LocalPlane>]) -> f64 {
+    let mut spreads: Vec<f64> = locals.iter().flatten().map(|l| l.rms).collect();
+    spreads.sort_by(f64::total_cmp);
+    spreads.get(spreads.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// A region before it is joined with others.

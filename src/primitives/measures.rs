@@ -10,24 +10,18 @@ pub(super) const ALL: &[Primitive] = &[
         features: &[FeatureKind::Polygon],
         parameters: &[
             Parameter::or(
-                "winding",
-                Type::Choice(&["ccw", "cw"]),
-                || Value::Choice("ccw".into()),
-                "Order of the vertices as seen from outside.",
-            ),
-            Parameter::or(
                 "begin",
                 Type::Choice(&["any", "lowest", "apex"]),
                 || Value::Choice("any".into()),
-                "What the order begins with: any vertex, the lowest edge, or the vertex opposite the lowest edge.",
+                "What the order begins with: any vertex, the lowest edge, or the vertex farthest from that edge.",
             ),
             Parameter::optional(
                 "first",
                 Type::Edge,
-                "The edge of another face that the order begins with.",
+                "The edge of another face: the outline's edge nearest to it takes the place of the lowest.",
             ),
         ],
-        doc: "The outline of a planar face as ordered vertices and a normal.",
+        doc: "The outline of a planar face as ordered vertices and a normal.\n\nVertices run counter-clockwise as seen from outside.",
     },
     Primitive {
         name: "marker_pose",
