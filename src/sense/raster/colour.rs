@@ -93,8 +93,8 @@ impl Painter<'_> {
                 last = last.max((u + 2).min(width));
             }
         }
-        for u in first..last {
-            row[u] = self.pixel(u, v);
+        for (u, pixel) in row.iter_mut().enumerate().take(last).skip(first) {
+            *pixel = self.pixel(u, v);
         }
     }
 
