@@ -20,6 +20,9 @@ use super::raster::Visibility;
 use super::{Observation, Simulator};
 use crate::geometry::{Bounds, Camera, Point, Pose};
 
+/// Candidate views held in memory at a time.
+const VIEWS_AT_ONCE: usize = 64;
+
 /// The coverage of one run.
 #[derive(Clone, Debug)]
 pub struct Coverage {
@@ -36,19 +39,20 @@ impl Coverage {
     /// from `views` (`world_from_camera`). `near` is ξ, metres.
     pub fn new(simulator: &Simulator, camera: &Camera, views: &[Pose], near: f64) -> Self {
         let space = simulator.space().bounds();
-        let seen: Vec<View> = views
-            .iter()
-            .map(|pose| View {
-                drawn: simulator.visibility(camera, pose),
-                camera,
-                world_from_camera: *pose,
-            })
-            .collect();
         let samples = samples::on(simulator.mesh(), &space);
+        let mut observable = vec![false; samples.len()];
+        for some in views.chunks(VIEWS_AT_ONCE) {
+            let drawn: Vec<View> = some.iter().map(|pose| View::of(simulator, camera, pose)).collect();
+            observable
+                .par_iter_mut()
+                .zip(&samples)
+                .filter(|(known, _)| !**known)
+                .for_each(|(known, sample)| *known = drawn.iter().any(|view| view.shows(sample, near)));
+        }
         let points = samples
-            .into_par_iter()
-            .filter(|s| seen.iter().any(|view| view.shows(s, near)))
-            .map(|s| s.at)
+            .iter()
+            .zip(observable)
+            .filter_map(|(sample, observable)| observable.then_some(sample.at))
             .collect();
         Self::of(points, space, near)
     }
@@ -113,7 +117,15 @@ struct View<'a> {
     world_from_camera: Pose,
 }
 
-impl View<'_> {
+impl<'a> View<'a> {
+    fn of(simulator: &'a Simulator, camera: &'a Camera, world_from_camera: &Pose) -> Self {
+        Self {
+            drawn: simulator.visibility(camera, world_from_camera),
+            camera,
+            world_from_camera: *world_from_camera,
+        }
+    }
+
     fn shows(&self, sample: &Sample, near: f64) -> bool {
         let eye = Point::from(self.world_from_camera.translation.vector);
         if (eye - sample.at).dot(&sample.normal) <= 0.0 {

@@ -72,7 +72,11 @@ pub struct Texture {
 impl Texture {
     /// The texel that contains image coordinates (u, v).
     pub fn at(&self, u: f64, v: f64) -> [u8; 3] {
-        let cell = |x: f64, n: u32| ((x.rem_euclid(1.0) * f64::from(n)) as u32).min(n - 1);
+        let cell = |x: f64, n: u32| {
+            // The remainder is a slow call and seldom needed.
+            let x = if (0.0..1.0).contains(&x) { x } else { x.rem_euclid(1.0) };
+            ((x * f64::from(n)) as u32).min(n - 1)
+        };
         self.pixels[cell(v, self.height) as usize * self.width as usize + cell(u, self.width) as usize]
     }
 }

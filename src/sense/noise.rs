@@ -8,8 +8,9 @@
 
 use std::str::FromStr;
 
-use rand::{Rng, RngExt, SeedableRng};
+use rand::{Rng, RngExt};
 use rand_pcg::Pcg64;
+use rayon::prelude::*;
 
 use crate::geometry::DepthRange;
 
@@ -47,20 +48,6 @@ impl FromStr for Noise {
     }
 }
 
-/// A true reading: z-depth in metres (0: none) and the cosine of incidence.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Reading {
-    pub(super) depth: f32,
-    pub(super) cosine: f32,
-}
-
-impl Reading {
-    pub(super) const NONE: Self = Self {
-        depth: 0.0,
-        cosine: 1.0,
-    };
-}
-
 /// Incidence from which on readings are lost, and at which all are, radians.
 const FADES: (f64, f64) = (70.0 * DEGREE, 82.0 * DEGREE);
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
@@ -71,24 +58,43 @@ const LOST_AT_EDGES: f64 = 0.4;
 /// A step between neighbours that makes a depth edge, metres.
 const EDGE: f32 = 0.03;
 
+/// Random values drawn for a pixel.
+const DRAWS: usize = 5;
+
 impl Noise {
-    /// The depth image of true readings, row by row. The random stream follows
-    /// from `seed` and the view's number alone.
-    pub(super) fn apply(self, truth: &[Reading], width: u32, range: DepthRange, seed: u64, n: u32) -> Vec<f32> {
-        match self {
-            Self::None => truth.iter().map(|r| r.depth).collect(),
-            Self::StructuredLight => {
-                let mut random = Pcg64::seed_from_u64(seed ^ u64::from(n).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-                let image = Truth {
-                    readings: truth,
-                    width: width as usize,
-                };
-                (0..truth.len())
-                    .map(|k| image.measured(k, &mut random))
-                    .map(|z| if range.contains(f64::from(z)) { z } else { 0.0 })
-                    .collect()
-            }
+    /// The measured depth image of a true one (row by row, 0: no reading);
+    /// `incidence` gives the angle between ray and normal at a pixel, radians.
+    ///
+    /// The random stream follows from `seed` and the view's number `n`, and a
+    /// pixel's place in it from its index, whatever the number of threads.
+    pub(super) fn apply(
+        self,
+        truth: Vec<f32>,
+        width: usize,
+        incidence: impl Fn(usize) -> f64 + Send + Sync,
+        range: DepthRange,
+        seed: u64,
+        n: u32,
+    ) -> Vec<f32> {
+        if self == Self::None {
+            return truth;
         }
+        let angles: Vec<f64> = (0..truth.len()).into_par_iter().map(incidence).collect();
+        let image = Truth {
+            depth: &truth,
+            angles: &angles,
+            width,
+        };
+        let mut measured = vec![0.0; truth.len()];
+        measured.par_chunks_mut(width).enumerate().for_each(|(v, row)| {
+            let mut random = Pcg64::new(u128::from(seed), u128::from(n));
+            random.advance((v * width * DRAWS) as u128);
+            for (u, z) in row.iter_mut().enumerate() {
+                let read = image.measured(v * width + u, &mut random);
+                *z = if range.contains(f64::from(read)) { read } else { 0.0 };
+            }
+        });
+        measured
     }
 }
 
@@ -109,53 +115,49 @@ fn fading(theta: f64) -> f64 {
 }
 
 struct Truth<'a> {
-    readings: &'a [Reading],
+    depth: &'a [f32],
+    angles: &'a [f64],
     width: usize,
 }
 
 impl Truth<'_> {
-    /// The reading of pixel `k`. Draws the same number of random values for
-    /// every pixel, so one pixel's fate does not move another's.
+    /// The reading of pixel `k`. Draws `DRAWS` values whatever comes of it, so
+    /// one pixel's fate does not move another's.
     fn measured(&self, k: usize, random: &mut Pcg64) -> f32 {
         let (jitter_u, jitter_v) = normal_pair(random);
         let (along, _) = normal_pair(random);
         let fate: f64 = random.random();
-        let here = self.readings[k];
-        let jitter = lateral(incidence(here)).min(3.0);
-        let read = self.readings[self.shifted(k, jitter_u * jitter, jitter_v * jitter)];
-        if read.depth <= 0.0 {
+        let jitter = lateral(self.angles[k]).min(3.0);
+        let read = self.shifted(k, jitter_u * jitter, jitter_v * jitter);
+        if self.depth[read] <= 0.0 {
             return 0.0;
         }
-        let theta = incidence(read);
+        let theta = self.angles[read];
         let edge = if self.beside_edge(k) { LOST_AT_EDGES } else { 0.0 };
         let kept = (1.0 - fading(theta)) * (1.0 - edge) * (1.0 - LOST);
         if fate >= kept {
             return 0.0;
         }
-        let z = f64::from(read.depth);
+        let z = f64::from(self.depth[read]);
         (z + along * axial(z, theta)) as f32
     }
 
     /// The pixel at an offset, clamped to the image.
     fn shifted(&self, k: usize, du: f64, dv: f64) -> usize {
-        let height = self.readings.len() / self.width;
-        let moved = |x: usize, by: f64, n: usize| (x as f64 + by.round()).clamp(0.0, n as f64 - 1.0) as usize;
+        let height = self.depth.len() / self.width;
+        let moved = |x: usize, by: f64, n: usize| (x as i64 + by.round() as i64).clamp(0, n as i64 - 1) as usize;
         moved(k / self.width, dv, height) * self.width + moved(k % self.width, du, self.width)
     }
 
     fn beside_edge(&self, k: usize) -> bool {
-        let here = self.readings[k].depth;
+        let here = self.depth[k];
         let u = k % self.width;
-        let differs = |j: usize| self.readings.get(j).is_some_and(|r| (r.depth - here).abs() > EDGE);
+        let differs = |j: usize| self.depth.get(j).is_some_and(|z| (z - here).abs() > EDGE);
         (u > 0 && differs(k - 1))
             || (u + 1 < self.width && differs(k + 1))
             || (k >= self.width && differs(k - self.width))
             || differs(k + self.width)
     }
-}
-
-fn incidence(r: Reading) -> f64 {
-    f64::from(r.cosine).clamp(0.0, 1.0).acos()
 }
 
 /// Two independent standard normal values (Box and Muller 1958).

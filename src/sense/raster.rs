@@ -13,10 +13,10 @@ mod facet;
 
 pub(super) use colour::{Backdrop, shade};
 
-use facet::Facet;
+use facet::{Corner, Facet};
 use rayon::prelude::*;
 
-use crate::geometry::{Intrinsics, Point, Pose, Vector};
+use crate::geometry::{Intrinsics, Pose, Vector};
 use crate::sense::Mesh;
 
 /// Rows a band.
@@ -39,12 +39,16 @@ impl<'a> Visibility<'a> {
     /// Draws a world mesh as seen by a camera.
     pub(super) fn of(mesh: &'a Mesh, image: &Intrinsics, world_from_camera: &Pose) -> Self {
         let camera_from_world = world_from_camera.inverse();
-        let seen: Vec<Point> = mesh.vertices.par_iter().map(|p| camera_from_world * p).collect();
+        let corners: Vec<Corner> = mesh
+            .vertices
+            .par_iter()
+            .map(|p| Corner::new(camera_from_world * p, image))
+            .collect();
         let facets: Vec<Facet> = mesh
             .triangles
             .par_iter()
             .enumerate()
-            .filter_map(|(k, t)| Facet::new(k as u32, t.map(|i| seen[i as usize]), image))
+            .filter_map(|(k, t)| Facet::new(k as u32, t.map(|i| corners[i as usize]), image))
             .collect();
         let mut drawn = Self {
             mesh,
@@ -94,14 +98,11 @@ impl<'a> Visibility<'a> {
         bins
     }
 
-    /// z-depth of pixel `k` and the cosine between ray and surface normal;
+    /// Cosine between the ray of pixel `k` and the normal of what it hits;
     /// `None` where nothing is hit.
-    pub(super) fn surface(&self, k: usize) -> Option<(f32, f32)> {
+    pub(super) fn cosine(&self, k: usize) -> Option<f64> {
         let facet = self.facets.get(self.slots[k] as usize)?;
-        let ray = self.ray(k);
-        let normal = facet.normal;
-        let cosine = (normal.dot(&ray) / (normal.norm() * ray.norm())).abs();
-        Some((1.0 / self.inverse[k], cosine as f32))
+        Some(facet.cosine(&self.ray(k)))
     }
 
     /// z-depth of pixel `k`, metres; `None` where nothing is hit.
@@ -112,10 +113,11 @@ impl<'a> Visibility<'a> {
     /// The triangle that pixel `k` shows, and whether its front face.
     pub(super) fn triangle(&self, k: usize) -> Option<(u32, bool)> {
         let facet = self.facets.get(self.slots[k] as usize)?;
-        Some((facet.triangle, facet.normal.dot(&self.ray(k)) < 0.0))
+        Some((facet.triangle, facet.front))
     }
 
-    fn ray(&self, k: usize) -> Vector {
+    /// The ray of pixel `k`, z = 1.
+    pub(super) fn ray(&self, k: usize) -> Vector {
         let width = self.image.width as usize;
         self.image.ray((k % width) as f64 + 0.5, (k / width) as f64 + 0.5)
     }

@@ -5,10 +5,10 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::error::SceneError;
-use super::noise::{Noise, Reading};
+use super::noise::Noise;
 use super::raster::{self, Visibility};
 use super::{DepthImage, Mesh, Observation, shapes};
-use crate::geometry::{Bounds, Camera, Point, Pose, Vector};
+use crate::geometry::{Bounds, Camera, Point, Pose};
 use crate::rules::{Backdrop, SceneObject, Space};
 
 /// A scene that can be observed from anywhere.
@@ -82,28 +82,25 @@ impl Simulator {
 
     /// The depth image of [`Simulator::observe`] alone.
     pub fn depth(&self, camera: &Camera, world_from_camera: &Pose, noise: Noise, seed: u64, n: u32) -> DepthImage {
-        let image = camera.depth;
-        let seen = Visibility::of(&self.mesh, &image, world_from_camera);
+        let seen = Visibility::of(&self.mesh, &camera.depth, world_from_camera);
         let backdrop = self.backdrop_seen(world_from_camera);
-        let width = image.width as usize;
-        let readings: Vec<Reading> = (0..image.pixels())
-            .into_par_iter()
-            .map(|k| {
-                let (depth, cosine) = seen.surface(k).or_else(|| {
-                    let ray: Vector = image.ray((k % width) as f64 + 0.5, (k / width) as f64 + 0.5);
-                    backdrop?.hit(&ray).map(|(z, cosine)| (z as f32, cosine as f32))
-                })?;
-                camera
-                    .range
-                    .contains(f64::from(depth))
-                    .then_some(Reading { depth, cosine })
-            })
-            .map(|reading| reading.unwrap_or(Reading::NONE))
-            .collect();
+        let width = camera.depth.width as usize;
+        let mut metres = vec![0.0; camera.depth.pixels()];
+        metres.par_chunks_mut(width).enumerate().for_each(|(v, row)| {
+            for (u, metre) in row.iter_mut().enumerate() {
+                let k = v * width + u;
+                let depth = seen.depth(k).or_else(|| Some(backdrop?.hit(&seen.ray(k))?.0 as f32));
+                *metre = depth.filter(|&z| camera.range.contains(f64::from(z))).unwrap_or(0.0);
+            }
+        });
+        let incidence = |k: usize| {
+            let cosine = seen.cosine(k).or_else(|| Some(backdrop?.hit(&seen.ray(k))?.1));
+            cosine.unwrap_or(1.0).clamp(0.0, 1.0).acos()
+        };
         DepthImage {
-            width: image.width,
-            height: image.height,
-            metres: noise.apply(&readings, image.width, camera.range, seed, n),
+            width: camera.depth.width,
+            height: camera.depth.height,
+            metres: noise.apply(metres, width, incidence, camera.range, seed, n),
         }
     }
 

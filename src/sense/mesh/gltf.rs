@@ -13,7 +13,7 @@ use super::{MeshError, Paint, Texture, image as pixels};
 use crate::geometry::Point;
 
 /// Deepest nesting of nodes.
-const DEEPEST: usize = 64;
+const DEEPEST: usize = 256;
 
 pub(super) fn read(bytes: &[u8], soup: &mut Soup) -> Result<(), MeshError> {
     let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(|e| soup.malformed(e.to_string().to_lowercase()))?;
@@ -25,7 +25,10 @@ pub(super) fn read(bytes: &[u8], soup: &mut Soup) -> Result<(), MeshError> {
         .images()
         .map(|image| texture(&image, &buffers, soup))
         .collect::<Result<_, _>>()?;
-    let scene = Scene { buffers };
+    let mut scene = Scene {
+        visited: vec![false; document.nodes().count()],
+        buffers,
+    };
     for node in roots(&document) {
         scene.push_node(&node, &Matrix4::identity(), 0, soup)?;
     }
@@ -80,18 +83,23 @@ fn texture(image: &image::Image, buffers: &[Vec<u8>], soup: &Soup) -> Result<Tex
 
 struct Scene {
     buffers: Vec<Vec<u8>>,
+    /// Nodes form a tree (glTF 3.5.2): none is entered twice.
+    visited: Vec<bool>,
 }
 
 impl Scene {
     fn push_node(
-        &self,
+        &mut self,
         node: &Node,
         world_from_parent: &Matrix4<f64>,
         depth: usize,
         soup: &mut Soup,
     ) -> Result<(), MeshError> {
         if depth == DEEPEST {
-            return Err(soup.malformed(format!("its nodes are nested more than {DEEPEST} deep, or in a circle")));
+            return Err(soup.malformed(format!("its nodes are nested more than {DEEPEST} deep")));
+        }
+        if std::mem::replace(&mut self.visited[node.index()], true) {
+            return Err(soup.malformed(format!("node {} has two parents", node.index())));
         }
         let columns = node.transform().matrix();
         let local = Matrix4::from_fn(|row, column| f64::from(columns[column][row]));

@@ -52,17 +52,15 @@ pub(in crate::sense) fn shade(seen: &Visibility, backdrop: Option<Backdrop>, wor
         bright: seen
             .facets
             .par_iter()
-            .map(|f| light(&f.normal, world_from_camera))
+            .map(|f| light(&f.normal(), world_from_camera))
             .collect(),
     };
     let (width, height) = (seen.image.width, seen.image.height);
-    let pixels = (0..height as usize)
-        .into_par_iter()
-        .flat_map_iter(|v| {
-            let painter = &painter;
-            (0..width as usize).map(move |u| painter.pixel(u, v))
-        })
-        .collect();
+    let mut pixels = vec![painter.air; seen.image.pixels()];
+    pixels
+        .par_chunks_mut(width as usize)
+        .enumerate()
+        .for_each(|(v, row)| painter.paint_row(v, row));
     ColourImage { width, height, pixels }
 }
 
@@ -81,6 +79,25 @@ struct Painter<'a> {
 }
 
 impl Painter<'_> {
+    /// Paints a row that holds air alone: only what lies at or beside the
+    /// object differs.
+    fn paint_row(&self, v: usize, row: &mut [[u8; 3]]) {
+        let (width, height) = (row.len(), self.seen.image.height as usize);
+        let rows = v.saturating_sub(1)..(v + 2).min(height);
+        let (mut first, mut last) = (width, 0);
+        for slots in rows.map(|r| &self.seen.slots[r * width..(r + 1) * width]) {
+            if let Some(u) = slots.iter().position(|&s| s != NOTHING) {
+                first = first.min(u.saturating_sub(1));
+            }
+            if let Some(u) = slots.iter().rposition(|&s| s != NOTHING) {
+                last = last.max((u + 2).min(width));
+            }
+        }
+        for (u, pixel) in row.iter_mut().enumerate().take(last).skip(first) {
+            *pixel = self.pixel(u, v);
+        }
+    }
+
     fn pixel(&self, u: usize, v: usize) -> [u8; 3] {
         let width = self.seen.image.width as usize;
         let slot = self.seen.slots[v * width + u];

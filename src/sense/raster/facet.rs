@@ -2,41 +2,55 @@
 
 use crate::geometry::{Intrinsics, Point, Vector};
 
+/// A mesh corner in camera axes and, where it lies in front, on the image.
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    p: Point,
+    at: [f64; 2],
+}
+
+impl Corner {
+    pub(super) fn new(p: Point, image: &Intrinsics) -> Self {
+        let at = [image.fx * p.x / p.z + image.cx, image.fy * p.y / p.z + image.cy];
+        Self { p, at }
+    }
+}
+
 /// A triangle in camera axes.
 pub(super) struct Facet {
     /// Index in the mesh.
     pub(super) triangle: u32,
-    /// (b − a) × (c − a), camera axes.
-    pub(super) normal: Vector,
     /// Rows that it may cover: first, one past the last.
     pub(super) rows: (u32, u32),
     columns: (u32, u32),
     /// d · edges[i] ≥ 0 for all i where the ray d hits the triangle; edge i
     /// faces corner i.
-    pub(super) edges: [Vector; 3],
+    edges: [Vector; 3],
     /// d · plane is 1 / depth.
     plane: Vector,
     /// Bounds of 1 / depth over the triangle.
     inverse: (f64, f64),
+    /// Whether its front faces the eye.
+    pub(super) front: bool,
 }
 
 impl Facet {
-    /// `None` where the triangle is behind, beside the image or edge-on.
-    pub(super) fn new(triangle: u32, corners: [Point; 3], image: &Intrinsics) -> Option<Self> {
-        let [a, b, c] = corners;
+    /// `None` where the triangle is behind, beside the image, between pixel
+    /// centres or edge-on.
+    pub(super) fn new(triangle: u32, corners: [Corner; 3], image: &Intrinsics) -> Option<Self> {
+        let (columns, rows) = extent(&corners, image)?;
+        let [a, b, c] = corners.map(|corner| corner.p);
         let normal = (b - a).cross(&(c - a));
         let offset = normal.dot(&a.coords);
         if offset == 0.0 || !offset.is_finite() {
             return None;
         }
-        let (columns, rows) = extent(&corners, image)?;
         let sign = offset.signum();
         let edge = |p: Point, q: Point| p.coords.cross(&q.coords) * sign;
-        let depths = corners.map(|p| p.z);
-        let (near, far) = (min3(depths), -min3(depths.map(|z| -z)));
+        let near = a.z.min(b.z).min(c.z);
+        let far = a.z.max(b.z).max(c.z);
         Some(Self {
             triangle,
-            normal,
             rows,
             columns,
             edges: [edge(b, c), edge(c, a), edge(a, b)],
@@ -46,7 +60,18 @@ impl Facet {
             } else {
                 (f64::MIN_POSITIVE, f64::INFINITY)
             },
+            front: offset < 0.0,
         })
+    }
+
+    /// Outward normal, camera axes, not of unit length.
+    pub(super) fn normal(&self) -> Vector {
+        if self.front { -self.plane } else { self.plane }
+    }
+
+    /// Cosine of the angle between a ray and the normal, without its sign.
+    pub(super) fn cosine(&self, ray: &Vector) -> f64 {
+        (self.plane.dot(ray) / (self.plane.norm_squared() * ray.norm_squared()).sqrt()).abs()
     }
 
     /// 1 / depth along a ray of z = 1; `None` where it misses.
@@ -111,57 +136,53 @@ impl Facet {
 type Extent = ((u32, u32), (u32, u32));
 
 /// Pixels whose centres the triangle may cover; `None` where there are none.
-fn extent(corners: &[Point; 3], image: &Intrinsics) -> Option<Extent> {
-    let in_front = corners.iter().filter(|p| p.z > 0.0).count();
-    if in_front == 0 {
-        return None;
+fn extent(corners: &[Corner; 3], image: &Intrinsics) -> Option<Extent> {
+    let in_front = corners.iter().filter(|c| c.p.z > 0.0).count();
+    match in_front {
+        0 => None,
+        3 => around(&corners.map(|c| c.at), image),
+        _ => around(&across_the_eye(corners, image), image),
     }
-    if in_front < 3 {
-        return across_the_eye(corners, image);
-    }
-    around(corners.iter().copied(), image)
 }
 
-/// The extent of the part in front of a plane close before the eye.
-fn across_the_eye(corners: &[Point; 3], image: &Intrinsics) -> Option<Extent> {
+/// Image outline of the part in front of a plane close before the eye.
+fn across_the_eye(corners: &[Corner; 3], image: &Intrinsics) -> Vec<[f64; 2]> {
     let nearest = 1e-6_f64;
     let mut part = Vec::with_capacity(4);
     for k in 0..3 {
-        let (p, q) = (corners[k], corners[(k + 1) % 3]);
+        let (p, q) = (corners[k].p, corners[(k + 1) % 3].p);
         if p.z >= nearest {
-            part.push(p);
+            part.push(corners[k].at);
         }
         if (p.z >= nearest) != (q.z >= nearest) {
             let t = (nearest - p.z) / (q.z - p.z);
-            part.push(Point::new(p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t, nearest));
+            let cut = Point::new(p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t, nearest);
+            part.push(Corner::new(cut, image).at);
         }
     }
-    if part.is_empty() {
-        None
-    } else {
-        around(part.into_iter(), image)
-    }
+    part
 }
 
-fn around(points: impl Iterator<Item = Point>, image: &Intrinsics) -> Option<Extent> {
-    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for p in points {
-        let at = [image.fx * p.x / p.z + image.cx, image.fy * p.y / p.z + image.cy];
-        for k in 0..2 {
-            low[k] = low[k].min(at[k]);
-            high[k] = high[k].max(at[k]);
-        }
-    }
-    // Half a pixel in from the corner lies the first centre; a hair of slack
-    // covers the rounding of the projection.
+fn around(points: &[[f64; 2]], image: &Intrinsics) -> Option<Extent> {
     let range = |k: usize, size: u32| {
-        let first = (low[k] - 0.5 - 1e-6).ceil().max(0.0);
-        let last = (high[k] - 0.5 + 1e-6).floor().min(f64::from(size) - 1.0);
-        (first <= last).then(|| (first as u32, last as u32 + 1))
+        let low = points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+        let high = points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+        centres(low, high, size)
     };
     Some((range(0, image.width)?, range(1, image.height)?))
 }
 
-fn min3([a, b, c]: [f64; 3]) -> f64 {
-    a.min(b).min(c)
+/// Pixels of an axis whose centres lie between two coordinates; a hair of
+/// slack covers the rounding of the projection.
+fn centres(low: f64, high: f64, size: u32) -> Option<(u32, u32)> {
+    let low = (low - 0.5 - 1e-6).max(0.0);
+    let high = (high - 0.5 + 1e-6).min(f64::from(size) - 1.0);
+    if high < low {
+        return None;
+    }
+    // Casts instead of `ceil`, which is a call on the baseline processor.
+    let below = low as u32;
+    let first = below + u32::from(f64::from(below) < low);
+    let end = high as u32 + 1;
+    (first < end).then_some((first, end))
 }

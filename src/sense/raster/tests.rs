@@ -1,5 +1,5 @@
 use super::*;
-use crate::geometry::look_at;
+use crate::geometry::{Point, look_at};
 use crate::sense::Paint;
 use crate::sense::shapes::testing::*;
 
@@ -90,8 +90,9 @@ fn the_nearest_triangle_wins_and_its_face_is_told() {
     let middle = 16 * 33 + 16;
     assert!((outside.depth(middle).unwrap() - 2.0).abs() < 1e-6);
     assert!(outside.triangle(middle).unwrap().1);
-    let (depth, cosine) = outside.surface(middle).unwrap();
-    assert!((depth - 2.0).abs() < 1e-6 && (cosine - 1.0).abs() < 1e-6);
+    assert!((outside.cosine(middle).unwrap() - 1.0).abs() < 1e-9);
+    let ray = outside.ray(10 * 33 + 20);
+    assert!((outside.cosine(10 * 33 + 20).unwrap() - 1.0 / ray.norm()).abs() < 1e-9);
     let inside = Visibility::of(&mesh, &image, &look_at(Point::origin(), Point::new(1.0, 0.0, 0.0)));
     assert!(!inside.triangle(middle).unwrap().1);
 }

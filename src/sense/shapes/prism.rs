@@ -14,49 +14,50 @@ use crate::sense::{Mesh, SceneError};
 pub(super) fn build(call: &Call) -> Result<Mesh, SceneError> {
     let base = Base::of(call)?;
     let height = range::length(call, "height", SIZES)?;
-    let taper = range::angle(call, "taper", -0.8..=0.8)?;
-    let top = base
-        .inset(height * taper.tan())
-        .ok_or_else(|| {
-            let found = format!("{:.1} deg over {:.0} mm", taper.to_degrees(), height * 1e3);
-            out_of_range(call, "taper", found, "one that leaves a top")
-        })?
-        .shifted(height * lean(call)?.tan());
+    let top = top(&base, height, call)?;
     let deformed = Deformations::of(call, base.sides())?;
     let low = base.outline(&deformed.notches, call)?;
-    let high = top.outline(&deformed.notches, call)?;
-    let raised = |points: &[OutlinePoint], z: f64| -> Vec<Point> {
-        points.iter().map(|p| Point::new(p.at[0], p.at[1], z)).collect()
-    };
-    let (bottom, lid) = (raised(&low, -height / 2.0), raised(&high, height / 2.0));
+    let bottom = raised(&low, -height / 2.0);
+    let lid = raised(&top.outline(&deformed.notches, call)?, height / 2.0);
 
     let mut builder = Builder::default();
     let colours = Colours::of(call)?;
     build_bottom(&bottom, &deformed, colours.bottom, call, &mut builder)?;
     let top_colour = call.colour("top").map_err(SceneError::argument("prism"))?.0;
-    if builder.face(&lid, &[], top_colour).is_none() {
-        return Err(crossing(call));
-    }
-    let sides = (0..base.sides()).map(|k| {
-        let (a, b) = base.side(k);
-        let (c, d) = top.side(k);
-        let corner = |p: Flat, z: f64| Point::new(p[0], p[1], z);
-        let (low, high) = (-height / 2.0, height / 2.0);
-        Side::new(vec![corner(a, low), corner(b, low), corner(d, high), corner(c, high)])
-    });
+    builder.face(&lid, &[], top_colour).ok_or_else(|| crossing(call))?;
+    let sides = sides(&base, &top, height);
     let panels = (0..low.len()).map(|i| {
         let j = (i + 1) % low.len();
         (low[i].side, vec![bottom[i], bottom[j], lid[j], lid[i]])
     });
-    build_sides(
-        &sides.collect::<Vec<_>>(),
-        panels,
-        &deformed,
-        colours.side,
-        call,
-        &mut builder,
-    )?;
+    build_sides(&sides, panels, &deformed, colours.side, call, &mut builder)?;
     simple::checked(builder.finish()).ok_or_else(|| crossing(call))
+}
+
+/// The base as taper and lean leave it at the top.
+fn top(base: &Base, height: f64, call: &Call) -> Result<Base, SceneError> {
+    let taper = range::angle(call, "taper", -0.8..=0.8)?;
+    let inset = base.inset(height * taper.tan()).ok_or_else(|| {
+        let found = format!("{:.1} deg over {:.0} mm", taper.to_degrees(), height * 1e3);
+        out_of_range(call, "taper", found, "one that leaves a top")
+    })?;
+    Ok(inset.shifted(height * lean(call)?.tan()))
+}
+
+/// Whole sides between base and top.
+fn sides(base: &Base, top: &Base, height: f64) -> Vec<Side> {
+    let corner = |p: Flat, z: f64| Point::new(p[0], p[1], z);
+    let (low, high) = (-height / 2.0, height / 2.0);
+    (0..base.sides())
+        .map(|k| {
+            let ((a, b), (c, d)) = (base.side(k), top.side(k));
+            Side::new(vec![corner(a, low), corner(b, low), corner(d, high), corner(c, high)])
+        })
+        .collect()
+}
+
+fn raised(points: &[OutlinePoint], z: f64) -> Vec<Point> {
+    points.iter().map(|p| Point::new(p.at[0], p.at[1], z)).collect()
 }
 
 /// Colours of bottom and sides.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::geometry::{DepthRange, Intrinsics, frame_facing, look_at};
+use crate::geometry::{DepthRange, Intrinsics, Vector, frame_facing, look_at};
 use crate::rules::{Marker, Place};
 use crate::sense::shapes::testing::*;
 

@@ -1,3 +1,5 @@
+use proptest::prelude::*;
+
 use super::*;
 use crate::sense::Mesh;
 
@@ -236,6 +238,9 @@ fn a_gltf_text_with_a_data_uri_is_read() {
     assert_eq!(mesh.bounds().max, Point::new(2.0, 0.0, 2.0));
     // The node mirrors z, so the face that looked along +z looks along −z: +y here.
     assert!(mesh.vector_area(0).y > 0.0);
+    let circle = text.replace("\"scale\":[2,2,-2]", "\"children\":[0]");
+    let error = read_bytes(Format::Gltf, circle.as_bytes(), &MeshOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("node 0 has two parents"), "{error}");
     let short = text.replace("\"count\":3", "\"count\":300");
     assert_eq!(
         read_bytes(Format::Gltf, short.as_bytes(), &MeshOptions::default())
@@ -262,5 +267,29 @@ fn broken_files_are_refused_by_name() {
     );
     for format in [Format::Stl, Format::Obj, Format::Ply, Format::Gltf] {
         assert!(read_bytes(format, b"glTF nonsense \xff\x00", &METRES).is_err());
+    }
+}
+
+proptest! {
+    #[test]
+    fn damaged_files_are_read_or_refused_but_never_panic(
+        flips in proptest::collection::vec((any::<proptest::sample::Index>(), any::<u8>()), 0..6),
+        keep in 0.2..1.0_f64,
+    ) {
+        let obj = b"v 0 0 0\nv 1 0 0 1 0 0\nvt 0 1\nv 0 1 0\no part\nusemtl a\nf 1/1 2/1 3/1\nf -1 -2 -3\n".to_vec();
+        let stl = b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+        for (format, bytes) in [
+            (Format::Ply, binary_ply(false)),
+            (Format::Ply, binary_ply(true)),
+            (Format::Obj, obj),
+            (Format::Stl, stl.to_vec()),
+        ] {
+            let mut bytes = bytes[..(bytes.len() as f64 * keep) as usize].to_vec();
+            for (at, value) in &flips {
+                let k = at.index(bytes.len());
+                bytes[k] = *value;
+            }
+            let _ = read_bytes(format, &bytes, &METRES);
+        }
     }
 }
