@@ -12,7 +12,7 @@ mod lower;
 mod names;
 mod source;
 mod stdlib;
-mod syntax;
+pub mod syntax;
 mod types;
 mod world;
 

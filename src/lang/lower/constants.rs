@@ -47,11 +47,14 @@ pub(super) fn triple(items: &[Expr]) -> Option<[f64; 3]> {
     <[f64; 3]>::try_from(numbers).ok()
 }
 
-/// Whether a constant is a finite number, or none at all.
+/// Largest number of any kind; lengths and the like have limits of their own.
+const LARGEST: f64 = 1e15;
+
+/// Whether a constant is a number within reason, or none at all.
 pub(super) fn is_finite(expr: &Expr) -> bool {
     match expr {
-        Expr::Value(Value::Point(p)) => p.coords.iter().all(|c| c.is_finite()),
-        Expr::Value(value) => scalar(value).is_none_or(f64::is_finite),
+        Expr::Value(Value::Point(p)) => p.coords.iter().all(|c| c.abs() <= 1e6),
+        Expr::Value(value) => scalar(value).is_none_or(|x| x.abs() <= LARGEST),
         _ => true,
     }
 }

@@ -189,8 +189,10 @@ impl<'a> Lowering<'a> {
         if constants::is_finite(expr) {
             return Some(());
         }
-        let help = "divide by something other than zero, and stay within what a machine can count";
-        self.report(Diagnostic::new(Code::E0309, span, "this value is not finite").help(help));
+        self.report(
+            Diagnostic::new(Code::E0309, span, "this value is too large, or not a number")
+                .help("points lie within 1000 km, and nothing is divided by zero"),
+        );
         None
     }
 

@@ -10,7 +10,7 @@ use crate::lang::types::typed;
 use crate::rules::{Call, Expr, FeatureId, Library, Rule, Value};
 
 impl<'a> Lowering<'a> {
-    /// Adds a rule for every ordered pair of places.
+    /// Adds a rule for every ordered pair of places, in the order of the features.
     pub(super) fn layout(&mut self, layout: &'a typed::Layout, out: &mut Library) {
         let n = layout.places.len();
         if n.saturating_mul(n) + out.rules.len() > MOST_RULES {
@@ -18,9 +18,10 @@ impl<'a> Lowering<'a> {
             return;
         }
         let places: Vec<Option<(FeatureId, Pose)>> = layout.places.iter().map(|p| self.place_pose(p)).collect();
-        let Some(places) = places.into_iter().collect::<Option<Vec<_>>>() else {
+        let Some(mut places) = places.into_iter().collect::<Option<Vec<_>>>() else {
             return;
         };
+        places.sort_by_key(|(feature, _)| *feature);
         let definite = self.definite_rules(layout, out);
         for (a, frame_from_a) in &places {
             for (b, frame_from_b) in places.iter().filter(|(b, _)| a != b) {

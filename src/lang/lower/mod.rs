@@ -29,8 +29,6 @@ pub(super) struct Lowered {
     pub task_spans: Vec<TaskSpans>,
     /// By scene: its backdrop.
     pub backdrop_spans: Vec<Span>,
-    /// By library: its layouts.
-    pub layout_spans: Vec<Vec<(Span, Vec<crate::rules::FeatureId>)>>,
 }
 
 /// Expands a checked program.
@@ -54,18 +52,11 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         whole: Vec::new(),
         task_spans: Vec::new(),
         backdrop_spans: Vec::new(),
-        layout_spans: Vec::new(),
     };
     for library in &typed.libraries {
         let before = lowering.found.len();
         out.rules.libraries.push(lowering.library(library));
         out.whole.push(library.whole && lowering.found.len() == before);
-        let layouts = library.layouts.iter();
-        out.layout_spans.push(
-            layouts
-                .map(|l| (l.span, l.places.iter().map(|p| p.feature).collect()))
-                .collect(),
-        );
     }
     for task in &typed.tasks {
         if let Some((task, spans)) = lowering.task(task) {

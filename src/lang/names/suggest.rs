@@ -142,7 +142,7 @@ mod tests {
     fn distances_by_hand() {
         assert_eq!(distance("goal", "gaol", 4), 1);
         assert_eq!(distance("sphere", "sphere", 4), 0);
-        assert_eq!(distance("bottom", "buttons", 4), 2);
+        assert_eq!(distance("bottom", "buttons", 4), 3);
         assert_eq!(distance("", "abc", 4), 3);
     }
 

@@ -70,11 +70,14 @@ pub(super) fn expr(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> Expr {
     Expr { kind, span: at }
 }
 
+/// Most operators in a row: the tree of a chain is as deep as the chain is long.
+const LONGEST_CHAIN: usize = 256;
+
 /// A chain of one precedence, read from the left.
 fn fold(b: &mut Builder<'_>, pair: Pair<'_, Rule>, join: fn(Operator, Box<Expr>, Box<Expr>) -> ExprKind) -> Expr {
     let whole = b.span(&pair);
     let mut left: Option<Expr> = None;
-    let mut operator = Operator::Add;
+    let (mut operator, mut operands) = (Operator::Add, 0);
     for part in children(pair) {
         match part.as_rule() {
             Rule::plus => operator = Operator::Add,
@@ -82,15 +85,16 @@ fn fold(b: &mut Builder<'_>, pair: Pair<'_, Rule>, join: fn(Operator, Box<Expr>,
             Rule::times => operator = Operator::Multiply,
             Rule::slash => operator = Operator::Divide,
             Rule::kw_else => {}
+            _ if operands > LONGEST_CHAIN => {
+                let message = format!("more than {LONGEST_CHAIN} operators in a row");
+                let out = Diagnostic::new(Code::E0108, whole, message);
+                b.found.push(out.help("name parts of the expression with `let`"));
+                break;
+            }
             _ => {
+                operands += 1;
                 let right = expr(b, part);
-                left = Some(match left {
-                    None => right,
-                    Some(left) => Expr {
-                        span: left.span.to(right.span),
-                        kind: join(operator, Box::new(left), Box::new(right)),
-                    },
-                });
+                left = Some(joined(left, operator, right, join));
             }
         }
     }
@@ -98,6 +102,21 @@ fn fold(b: &mut Builder<'_>, pair: Pair<'_, Rule>, join: fn(Operator, Box<Expr>,
         kind: ExprKind::List(Vec::new()),
         span: whole,
     })
+}
+
+fn joined(
+    left: Option<Expr>,
+    operator: Operator,
+    right: Expr,
+    join: fn(Operator, Box<Expr>, Box<Expr>) -> ExprKind,
+) -> Expr {
+    let Some(left) = left else {
+        return right;
+    };
+    Expr {
+        span: left.span.to(right.span),
+        kind: join(operator, Box::new(left), Box::new(right)),
+    }
 }
 
 fn unary(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> Expr {

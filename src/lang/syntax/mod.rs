@@ -9,7 +9,7 @@ mod expected;
 mod expressions;
 mod guard;
 mod recover;
-pub(in crate::lang) mod tree;
+pub mod tree;
 
 use std::num::NonZeroUsize;
 use std::sync::Once;
@@ -28,8 +28,8 @@ struct Grammar;
 /// Most rule calls of one parse, against inputs that are built to take forever.
 const MOST_CALLS: usize = 400_000_000;
 
-/// The tree of a text, and what is wrong with it.
-pub(super) fn parse(file: FileId, text: &str) -> (tree::File, Vec<Diagnostic>) {
+/// The tree of a text, and what is wrong with it: for tools that read or rewrite programs.
+pub fn parse(file: FileId, text: &str) -> (tree::File, Vec<Diagnostic>) {
     limit_calls();
     if let Err(found) = guard::check(file, text) {
         return (tree::File::default(), vec![found]);

@@ -47,7 +47,6 @@ impl Checker<'_> {
                 name.text.clone(),
                 Family {
                     kind,
-                    many: declared.many,
                     members,
                     span: name.span,
                 },

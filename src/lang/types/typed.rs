@@ -78,7 +78,6 @@ pub(in crate::lang) struct Families(pub BTreeMap<String, Family>);
 #[derive(Clone, Debug)]
 pub(in crate::lang) struct Family {
     pub kind: FeatureKind,
-    pub many: bool,
     pub members: Members,
     pub span: Span,
 }
