@@ -1,1 +1,84 @@
 //! The command line: one file a verb.
+
+mod check;
+mod compile;
+mod files;
+
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// View Planning Language: say what to perceive, get the next best view.
+#[derive(Parser)]
+#[command(name = "vpl", version, about, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    Check(check::Check),
+    Compile(compile::Compile),
+}
+
+/// How a command ended; the numbers are its exit status.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// Done.
+    Done = 0,
+    /// The input is wrong, and diagnostics said where.
+    WrongInput = 1,
+}
+
+/// Why a command could not do its work.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    /// A result could not be written.
+    #[error("{0} cannot be written: {1}")]
+    Write(String, io::Error),
+}
+
+/// Runs the program with its arguments, the program's name first.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error),
+    };
+    let outcome = match cli.verb {
+        Verb::Check(check) => check::run(&check),
+        Verb::Compile(compile) => compile::run(&compile),
+    };
+    match outcome {
+        Ok(outcome) => ExitCode::from(outcome as u8),
+        // Whoever read the output has seen enough.
+        Err(Failure::Write(_, error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(failure) => {
+            let _ = writeln!(io::stderr(), "error: {failure}");
+            ExitCode::from(1)
+        }
+    }
+}
+
+fn usage(error: &clap::Error) -> ExitCode {
+    let _ = error.print();
+    ExitCode::from(if error.use_stderr() { 2 } else { 0 })
+}
+
+/// Writes a result to standard output.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(|error| Failure::Write("standard output".into(), error))
+}
+
+/// Writes diagnostics or progress to standard error.
+pub(crate) fn report(text: &str) -> Result<(), Failure> {
+    io::stderr()
+        .lock()
+        .write_all(text.as_bytes())
+        .map_err(|error| Failure::Write("standard error".into(), error))
+}

@@ -19,7 +19,7 @@ pub use attributes::{Attribute, attributes};
 pub use cameras::camera;
 pub use detectors::{Envelope, ImageKind, envelope};
 pub use predictors::{Strength, strength};
-pub use views::poses;
+pub use views::{MOST_VIEWS, poses};
 
 use crate::rules::{FeatureKind, Value};
 

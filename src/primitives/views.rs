@@ -8,21 +8,21 @@ const RADIUS: Parameter = Parameter::required("radius", Type::Length, "Distance 
 
 pub(super) const ALL: &[Primitive] = &[
     Primitive {
-        name: "sphere",
+        name: "fibonacci_sphere",
         result: Type::Views,
         features: &[],
         parameters: &[RADIUS, Parameter::required("count", Type::Count, "Number of views.")],
         doc: "Views spread evenly over a sphere about the space, on a Fibonacci spiral, looking at its centre.",
     },
     Primitive {
-        name: "hemisphere",
+        name: "fibonacci_hemisphere",
         result: Type::Views,
         features: &[],
         parameters: &[RADIUS, Parameter::required("count", Type::Count, "Number of views.")],
         doc: "Views spread evenly over the upper half of a sphere about the space, looking at its centre.",
     },
     Primitive {
-        name: "ring",
+        name: "circle",
         result: Type::Views,
         features: &[],
         parameters: &[
@@ -38,7 +38,7 @@ pub(super) const ALL: &[Primitive] = &[
         doc: "Views on a horizontal circle, looking at the centre of the space.",
     },
     Primitive {
-        name: "grid_on_box",
+        name: "box_grid",
         result: Type::Views,
         features: &[],
         parameters: &[
@@ -52,7 +52,7 @@ pub(super) const ALL: &[Primitive] = &[
         doc: "Views on a grid over the four sides and the top of a box about the space, looking at its centre.",
     },
     Primitive {
-        name: "from_points",
+        name: "positions",
         result: Type::Views,
         features: &[],
         parameters: &[Parameter::required(
@@ -71,15 +71,15 @@ pub(super) const ALL: &[Primitive] = &[
 pub fn poses(views: &Call, space: &Space) -> Result<Vec<Pose>, BadArgument> {
     let centre = space.centre;
     let offsets = match views.primitive.as_str() {
-        "sphere" => spiral(views.count("count")?, -1.0, views.length("radius")?),
-        "hemisphere" => spiral(views.count("count")?, 0.0, views.length("radius")?),
-        "ring" => ring(
+        "fibonacci_sphere" => spiral(views.count("count")?, -1.0, views.length("radius")?),
+        "fibonacci_hemisphere" => spiral(views.count("count")?, 0.0, views.length("radius")?),
+        "circle" => ring(
             views.count("count")?,
             views.length("radius")?,
             views.angle("elevation")?,
         ),
-        "grid_on_box" => grid_on_box(views.lengths("size")?, views.length("step")?)?,
-        "from_points" => return listed(views, centre),
+        "box_grid" => grid_on_box(views.lengths("size")?, views.length("step")?)?,
+        "positions" => return listed(views, centre),
         other => return Err(BadArgument::new(other, "a set of views")),
     };
     Ok(offsets.into_iter().map(|d| look_at(centre + d, centre)).collect())

@@ -10,6 +10,7 @@ mod library;
 mod scene;
 mod task;
 
+pub(crate) use artefact::hex;
 pub use artefact::{FORMAT, Place, ReadError, RuleSet, Source};
 pub use expr::{BadArgument, Call, Colour, Expr, Value};
 pub use library::{Class, Each, Feature, FeatureId, FeatureKind, Library, Presence, Rule};

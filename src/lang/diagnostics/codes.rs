@@ -1,0 +1,104 @@
+//! Every code with a title: E01 syntax and files, E02 names, E03 types and
+//! units, E04 task checks, E05 scenes, W04 warnings about tasks.
+
+use std::fmt;
+
+use super::Severity;
+
+macro_rules! codes {
+    ($($code:ident $title:literal)*) => {
+        /// The kind of a diagnostic.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum Code {
+            $(#[doc = $title] $code,)*
+        }
+
+        impl Code {
+            /// All codes in order.
+            pub const ALL: &[Code] = &[$(Code::$code,)*];
+        }
+
+        /// One line on what a code is about.
+        pub fn title(code: Code) -> &'static str {
+            match code {
+                $(Code::$code => $title,)*
+            }
+        }
+    };
+}
+
+codes! {
+    E0101 "text that the grammar does not know"
+    E0102 "the edition line `vpl 1` is missing or malformed"
+    E0103 "a language edition that this program does not read"
+    E0104 "an empty file"
+    E0105 "a file that cannot be read"
+    E0106 "a file that is too large"
+    E0107 "a file that is no UTF-8 text"
+    E0108 "brackets nested too deep, or a file too complex to read"
+    E0109 "a mark of another language"
+    E0110 "a malformed literal"
+    E0111 "an import that cannot be followed"
+    E0112 "modules that import each other in a circle"
+    E0201 "an unknown name"
+    E0202 "a name declared twice"
+    E0203 "an unknown definition or primitive"
+    E0204 "an unknown module or an unknown name in one"
+    E0205 "an attribute out of reach of its rule"
+    E0206 "an unknown attribute"
+    E0207 "an unknown feature"
+    E0208 "an unknown library, class or layout"
+    E0209 "definitions that need each other in a circle"
+    E0210 "an index that fits no family"
+    E0301 "a value of the wrong type"
+    E0302 "a missing or an unknown unit"
+    E0303 "a missing argument"
+    E0304 "an argument that is unknown, surplus or out of order"
+    E0305 "values that cannot be combined"
+    E0306 "an unknown word where one of a few is due"
+    E0307 "a primitive that does not fit its feature"
+    E0308 "a statement that is missing or surplus"
+    E0309 "a value out of range"
+    E0310 "a presence row of the wrong width"
+    E0311 "priors that do not fit"
+    E0312 "a program that expands too far"
+    E0401 "two classes that nothing tells apart"
+    E0402 "thresholds that do not fit the map"
+    E0403 "views that cannot measure"
+    E0404 "a map that does not fit in memory"
+    E0405 "a library without a beginning"
+    E0501 "a backdrop that does not enclose the views"
+    E0502 "a marker without a place or a print"
+    E0503 "a view inside an object"
+    E0504 "a mesh that cannot be used"
+    W0401 "an attribute that has no value at first"
+    W0402 "a feature that no class has"
+    W0403 "a feature that every class has"
+    W0404 "a feature that nothing detects"
+    W0405 "a rule that can never fire"
+    W0406 "predictions that nothing starts"
+    W0407 "a marker too small to decode"
+    W0408 "views of which some cannot measure"
+}
+
+impl Code {
+    /// As it is written.
+    pub fn as_str(self) -> String {
+        format!("{self:?}")
+    }
+
+    /// What diagnostics of this code usually are.
+    pub fn severity(self) -> Severity {
+        if self < Self::W0401 {
+            Severity::Error
+        } else {
+            Severity::Warning
+        }
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{self:?}")
+    }
+}

@@ -1,0 +1,211 @@
+//! Expressions: definitions replaced by their bodies, names by what they stand for.
+
+use std::collections::BTreeMap;
+
+use super::{Lowering, constants, ranges};
+use crate::geometry::{Point, Vector};
+use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::source::Span;
+use crate::lang::types::typed::{self, ExprKind, Families, TextPart};
+use crate::primitives::{Primitive, Type};
+use crate::rules::{Call, Expr, Value};
+
+/// Most expressions that a program expands to.
+const MOST_STEPS: usize = 4_000_000;
+
+/// An expanded expression and where the user wrote it: for a parameter, the argument.
+#[derive(Clone, Debug)]
+pub(super) struct Expanded {
+    pub expr: Expr,
+    pub span: Span,
+}
+
+/// What names stand for.
+#[derive(Clone, Default)]
+pub(super) struct Env<'a> {
+    pub parameters: BTreeMap<&'a str, Expanded>,
+    pub indices: BTreeMap<String, u64>,
+    pub families: Option<&'a Families>,
+    /// The call that the user wrote, where this is inside of a definition.
+    pub call: Option<Span>,
+}
+
+impl<'a> Lowering<'a> {
+    /// Expands an expression; `None` where a value in it is wrong, which was reported.
+    pub(super) fn expand(&mut self, e: &'a typed::Expr, env: &Env<'a>) -> Option<Expanded> {
+        self.steps += 1;
+        if self.steps > MOST_STEPS {
+            return self.too_far(env.call.unwrap_or(e.span));
+        }
+        let expr = match &e.kind {
+            ExprKind::Parameter(name) => return env.parameters.get(name.as_str()).cloned(),
+            ExprKind::Value(value) => Expr::Value(value.clone()),
+            ExprKind::Text(parts) => Expr::Value(Value::Text(self.text(parts, env, e.span)?)),
+            ExprKind::Variable(name) => Expr::Variable(name.clone()),
+            ExprKind::Attribute(feature, name) => Expr::Attribute {
+                feature: env.families?.resolve(feature, &env.indices)?,
+                name: name.clone(),
+            },
+            ExprKind::Else(a, b) => {
+                let (a, b) = (self.expand(a, env), self.expand(b, env));
+                Expr::Else(Box::new(a?.expr), Box::new(b?.expr))
+            }
+            ExprKind::Binary(op, a, b) => {
+                let (a, b) = (self.expand(a, env), self.expand(b, env));
+                constants::combine(*op, a?.expr, b?.expr)
+            }
+            ExprKind::Negate(a) => constants::negate(self.expand(a, env)?.expr),
+            ExprKind::List(items) => self.list(items, e, env)?,
+            ExprKind::Primitive(primitive, arguments) => Expr::Call(self.call(primitive, arguments, e.span, env)?),
+            ExprKind::Definition(id, arguments) => {
+                let definition = self.typed.definitions.get(id.0)?.as_ref()?;
+                let given: Vec<Option<Expanded>> = arguments.iter().map(|a| self.expand(a, env)).collect();
+                let given = given.into_iter().collect::<Option<Vec<_>>>()?;
+                let names = definition.parameters.iter().map(String::as_str);
+                let inner = Env {
+                    parameters: names.zip(given).collect(),
+                    call: Some(env.call.unwrap_or(e.span)),
+                    ..Env::default()
+                };
+                self.expand(&definition.body, &inner)?.expr
+            }
+        };
+        let span = env.call.unwrap_or(e.span);
+        let expr = if e.ty == Type::Number {
+            constants::as_number(expr)
+        } else {
+            expr
+        };
+        self.finite(&expr, span)?;
+        Some(Expanded { expr, span })
+    }
+
+    /// Expands an expression that must be a call of a primitive.
+    pub(super) fn primitive(&mut self, e: &'a typed::Expr, env: &Env<'a>) -> Option<Call> {
+        match self.expand(e, env)?.expr {
+            Expr::Call(call) => Some(call),
+            _ => None,
+        }
+    }
+
+    /// Expands an expression that has a value at once.
+    pub(super) fn value(&mut self, e: &'a typed::Expr) -> Option<Value> {
+        match self.expand(e, &Env::default())?.expr {
+            Expr::Value(value) => Some(value),
+            _ => {
+                self.report(Diagnostic::new(
+                    Code::E0301,
+                    e.span,
+                    "this value must be known before the robot moves",
+                ));
+                None
+            }
+        }
+    }
+
+    fn call(
+        &mut self,
+        primitive: &'static Primitive,
+        arguments: &'a BTreeMap<&'static str, typed::Expr>,
+        span: Span,
+        env: &Env<'a>,
+    ) -> Option<Call> {
+        let mut out = BTreeMap::new();
+        let mut right = true;
+        for (name, argument) in arguments {
+            let Some(value) = self.expand(argument, env) else {
+                right = false;
+                continue;
+            };
+            if let Err(found) = ranges::check(primitive, name, &value) {
+                self.report(found);
+                right = false;
+            }
+            out.insert((*name).to_owned(), value.expr);
+        }
+        let call = Call {
+            primitive: primitive.name.to_owned(),
+            arguments: out,
+        };
+        if right && let Err(found) = ranges::check_call(primitive, &call, env.call.unwrap_or(span)) {
+            self.report(found);
+            right = false;
+        }
+        right.then_some(call)
+    }
+
+    fn text(&mut self, parts: &[TextPart], env: &Env<'_>, span: Span) -> Option<String> {
+        let mut out = String::new();
+        for part in parts {
+            match part {
+                TextPart::Literal(text) => out.push_str(text),
+                TextPart::Hole(name) => match (env.indices.get(name), env.parameters.get(name.as_str())) {
+                    (Some(n), _) => out.push_str(&n.to_string()),
+                    (None, Some(given)) => match &given.expr {
+                        Expr::Value(Value::Text(text)) => out.push_str(text),
+                        Expr::Value(Value::Count(n)) => out.push_str(&n.to_string()),
+                        _ => return None,
+                    },
+                    (None, None) => return None,
+                },
+            }
+        }
+        if out.len() > MOST_TEXT {
+            return self.too_far(span);
+        }
+        Some(out)
+    }
+
+    fn list(&mut self, items: &'a [typed::Expr], e: &typed::Expr, env: &Env<'a>) -> Option<Expr> {
+        let items: Vec<Option<Expanded>> = items.iter().map(|item| self.expand(item, env)).collect();
+        let items: Vec<Expr> = items.into_iter().map(|i| i.map(|i| i.expr)).collect::<Option<_>>()?;
+        if !matches!(e.ty, Type::Point | Type::Direction) {
+            return Some(Expr::List(items));
+        }
+        let Some([x, y, z]) = constants::triple(&items) else {
+            self.report(
+                Diagnostic::new(Code::E0301, e.span, "the coordinates of a point must be constants")
+                    .help("attributes that are points, like `bottom.centre`, can be added to a point"),
+            );
+            return None;
+        };
+        if e.ty == Type::Point {
+            return Some(Expr::Value(Value::Point(Point::new(x, y, z))));
+        }
+        match Vector::new(x, y, z).try_normalize(1e-9) {
+            Some(unit) => Some(Expr::Value(Value::Direction(unit))),
+            None => {
+                self.report(Diagnostic::new(
+                    Code::E0309,
+                    e.span,
+                    "a direction of no length points nowhere",
+                ));
+                None
+            }
+        }
+    }
+
+    fn finite(&mut self, expr: &Expr, span: Span) -> Option<()> {
+        if constants::is_finite(expr) {
+            return Some(());
+        }
+        self.report(
+            Diagnostic::new(Code::E0309, span, "this value is too large, or not a number")
+                .help("points lie within 1000 km, and nothing is divided by zero"),
+        );
+        None
+    }
+
+    pub(super) fn too_far<T>(&mut self, span: Span) -> Option<T> {
+        if !self.found.iter().any(|d| d.code == Code::E0312) {
+            self.report(
+                Diagnostic::new(Code::E0312, span, "this program expands too far")
+                    .help("definitions that use others several times multiply: use fewer levels"),
+            );
+        }
+        None
+    }
+}
+
+/// Longest text, bytes.
+const MOST_TEXT: usize = 4_096;

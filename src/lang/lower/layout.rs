@@ -1,0 +1,99 @@
+//! Layouts: every marker predicts every other, rigidly.
+
+use std::collections::BTreeMap;
+
+use super::Lowering;
+use super::library::MOST_RULES;
+use crate::geometry::{Pose, frame_facing};
+use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::types::typed;
+use crate::rules::{Call, Expr, FeatureId, Library, Rule, Value};
+
+impl<'a> Lowering<'a> {
+    /// Adds a rule for every ordered pair of places, in the order of the features.
+    pub(super) fn layout(&mut self, layout: &'a typed::Layout, out: &mut Library) {
+        let n = layout.places.len();
+        if n.saturating_mul(n) + out.rules.len() > MOST_RULES {
+            self.too_far::<()>(layout.span);
+            return;
+        }
+        let places: Vec<Option<(FeatureId, Pose)>> = layout.places.iter().map(|p| self.place_pose(p)).collect();
+        let Some(mut places) = places.into_iter().collect::<Option<Vec<_>>>() else {
+            return;
+        };
+        places.sort_by_key(|(feature, _)| *feature);
+        let definite = self.definite_rules(layout, out);
+        for (a, frame_from_a) in &places {
+            for (b, frame_from_b) in places.iter().filter(|(b, _)| a != b) {
+                let Some(rule) = definite.get(b) else { continue };
+                let a_from_b = frame_from_a.inv_mul(frame_from_b);
+                out.rules.push(Rule {
+                    id: format!("r{}", out.rules.len() + 1),
+                    antecedents: vec![*a],
+                    consequent: *b,
+                    each: Vec::new(),
+                    detect: rule.detect.clone(),
+                    measure: rule.measure.clone(),
+                    predict: Some(rigid_marker(*a, a_from_b, rule)),
+                    place: self.place(layout.span),
+                });
+            }
+        }
+    }
+
+    /// `frame_from_place`: the frame that the layout is written in is the object's.
+    pub(super) fn place_pose(&mut self, place: &'a typed::LayoutPlace) -> Option<(FeatureId, Pose)> {
+        let (at, facing) = (self.value(&place.at), self.value(&place.facing));
+        match (at?, facing?) {
+            (Value::Point(at), Value::Direction(facing)) => Some((place.feature, frame_facing(at, facing))),
+            _ => None,
+        }
+    }
+
+    /// The definite rule of each placed feature, whose detection the pairs repeat.
+    fn definite_rules(&mut self, layout: &typed::Layout, library: &Library) -> BTreeMap<FeatureId, Rule> {
+        let mut out = BTreeMap::new();
+        for place in &layout.places {
+            let definite = library
+                .rules
+                .iter()
+                .find(|r| r.antecedents.is_empty() && r.consequent == place.feature);
+            match definite {
+                Some(rule) => drop(out.insert(place.feature, rule.clone())),
+                None => {
+                    let name = &library.feature(place.feature).name;
+                    let message = format!("no rule says how `{name}` is detected by itself");
+                    self.report(
+                        Diagnostic::new(Code::E0502, place.span, message)
+                            .help(format!("add `rule -> {name} {{ … }}` with `detect` and `measure`")),
+                    );
+                }
+            }
+        }
+        out
+    }
+}
+
+fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, rule: &Rule) -> Call {
+    let pose = Expr::Attribute {
+        feature: antecedent,
+        name: "pose".into(),
+    };
+    let mut arguments = BTreeMap::from([
+        ("antecedent".to_owned(), pose),
+        (
+            "antecedent_from_consequent".to_owned(),
+            Expr::Value(Value::Pose(antecedent_from_consequent)),
+        ),
+    ]);
+    arguments.extend(
+        rule.detect
+            .arguments
+            .get("size")
+            .map(|size| ("size".to_owned(), size.clone())),
+    );
+    Call {
+        primitive: "rigid_marker".into(),
+        arguments,
+    }
+}

@@ -1,0 +1,91 @@
+//! From the checked program to the rule set: families, layouts and definitions
+//! expanded, constants folded, everything in SI units.
+//!
+//! What is only known now is checked here: ranges of values, and which primitive a
+//! definition comes down to.
+
+mod constants;
+mod expand;
+mod layout;
+mod library;
+mod ranges;
+mod scene;
+mod task;
+
+pub(super) use task::TaskSpans;
+
+use super::diagnostics::Diagnostic;
+use super::names::Program;
+use super::source::{SourceMap, Span};
+use super::types::typed;
+use crate::rules::{FORMAT, Place, RuleSet};
+
+/// The rule set as far as the program is right, with spans for the task checks.
+pub(super) struct Lowered {
+    pub rules: RuleSet,
+    /// By library: whether all of it was lowered.
+    pub whole: Vec<bool>,
+    /// By task.
+    pub task_spans: Vec<TaskSpans>,
+    /// By scene: its backdrop.
+    pub backdrop_spans: Vec<Span>,
+}
+
+/// Expands a checked program.
+pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceMap) -> (Lowered, Vec<Diagnostic>) {
+    let language = program.main().tree.edition.as_ref().and_then(|e| e.text.parse().ok());
+    let mut lowering = Lowering {
+        typed,
+        sources,
+        steps: 0,
+        found: Vec::new(),
+    };
+    let mut out = Lowered {
+        rules: RuleSet {
+            format: FORMAT,
+            language: language.unwrap_or(super::EDITION),
+            sources: sources.listed(),
+            libraries: Vec::new(),
+            tasks: Vec::new(),
+            scenes: Vec::new(),
+        },
+        whole: Vec::new(),
+        task_spans: Vec::new(),
+        backdrop_spans: Vec::new(),
+    };
+    for library in &typed.libraries {
+        let before = lowering.found.len();
+        out.rules.libraries.push(lowering.library(library));
+        out.whole.push(library.whole && lowering.found.len() == before);
+    }
+    for task in &typed.tasks {
+        if let Some((task, spans)) = lowering.task(task) {
+            out.rules.tasks.push(task);
+            out.task_spans.push(spans);
+        }
+    }
+    for scene in &typed.scenes {
+        let lowered = lowering.scene(scene, &out.rules.libraries);
+        out.rules.scenes.push(lowered);
+        out.backdrop_spans.push(scene.backdrop_span);
+    }
+    (out, lowering.found)
+}
+
+struct Lowering<'a> {
+    typed: &'a typed::Program,
+    sources: &'a SourceMap,
+    /// Expressions expanded so far.
+    steps: usize,
+    found: Vec<Diagnostic>,
+}
+
+impl Lowering<'_> {
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.found.push(diagnostic);
+    }
+
+    fn place(&self, span: Span) -> Place {
+        self.sources.place(span)
+    }
+}

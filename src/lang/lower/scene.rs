@@ -1,0 +1,89 @@
+//! Scenes: backdrops, objects and the markers that they carry.
+
+use super::Lowering;
+use super::expand::Env;
+use crate::geometry::{Pose, Rotation, Vector};
+use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::types::typed;
+use crate::rules::{Backdrop, Library, Marker, Scene, SceneObject, Value};
+
+impl<'a> Lowering<'a> {
+    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[Library]) -> Scene {
+        Scene {
+            name: scene.name.clone(),
+            backdrop: scene.backdrop.as_ref().and_then(|b| self.backdrop(b)),
+            objects: scene.objects.iter().filter_map(|o| self.object(o, libraries)).collect(),
+            place: self.place(scene.span),
+        }
+    }
+
+    fn backdrop(&mut self, backdrop: &'a typed::Expr) -> Option<Backdrop> {
+        let call = self.primitive(backdrop, &Env::default())?;
+        Some(Backdrop {
+            radius: call.length("radius").ok()?,
+            colour: call.colour("colour").ok()?,
+        })
+    }
+
+    fn object(&mut self, object: &'a typed::Object, libraries: &[Library]) -> Option<SceneObject> {
+        let shape = self.primitive(&object.shape, &Env::default());
+        let at = self.value(&object.at);
+        let yaw = object.turned.as_ref().map(|t| self.value(t));
+        let markers = match &object.marked {
+            None => Some(Vec::new()),
+            Some(marked) => self.markers(marked, libraries),
+        };
+        let (Value::Point(at), Ok(yaw)) = (at?, angle(yaw)) else {
+            return None;
+        };
+        Some(SceneObject {
+            name: object.name.clone(),
+            shape: shape?,
+            world_from_object: Pose::from_parts(at.coords.into(), Rotation::from_axis_angle(&Vector::z_axis(), yaw)),
+            markers: markers?,
+            place: self.place(object.span),
+        })
+    }
+
+    /// A print for every marker that the class has, where the layout puts it.
+    fn markers(&mut self, marked: &'a typed::Marked, libraries: &[Library]) -> Option<Vec<Marker>> {
+        let typed = &self.typed.libraries[marked.library];
+        let library = libraries.get(marked.library)?;
+        let class = library.classes.get(marked.class)?;
+        let layout = typed.layouts.get(marked.layout)?;
+        let mut out = Vec::new();
+        for place in &layout.places {
+            if !class.presence.has(place.feature) {
+                continue;
+            }
+            let (_, object_from_marker) = self.place_pose(place)?;
+            let print = library
+                .rules
+                .iter()
+                .filter(|r| r.consequent == place.feature)
+                .find_map(|r| Some((r.detect.text("text").ok()?, r.detect.length("size").ok()?)));
+            let Some((text, size)) = print else {
+                let name = &library.feature(place.feature).name;
+                let message = format!("no rule says what is printed on `{name}`");
+                let help = "detect it with `qr(text: …, size: …)`";
+                self.report(Diagnostic::new(Code::E0502, marked.span, message).help(help));
+                return None;
+            };
+            out.push(Marker {
+                text: text.to_owned(),
+                size,
+                object_from_marker,
+            });
+        }
+        Some(out)
+    }
+}
+
+/// No turn is a turn of zero.
+fn angle(yaw: Option<Option<Value>>) -> Result<f64, ()> {
+    match yaw {
+        None => Ok(0.0),
+        Some(Some(Value::Angle(yaw))) => Ok(yaw),
+        Some(_) => Err(()),
+    }
+}

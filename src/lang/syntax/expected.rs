@@ -1,0 +1,110 @@
+//! Grammar rules in the user's words.
+
+use std::collections::BTreeSet;
+
+use super::Rule;
+
+/// The names of expected rules, sorted, each once.
+pub(super) fn names(rules: &[Rule]) -> Vec<String> {
+    let found: BTreeSet<(u8, String)> = rules.iter().filter_map(|r| describe(*r)).collect();
+    found.into_iter().map(|(_, text)| text).collect()
+}
+
+/// `a, b or c`, cut short where it is long.
+pub(super) fn list(names: &[String]) -> String {
+    const MOST: usize = 14;
+    let shown = &names[..names.len().min(MOST)];
+    match shown {
+        [] => String::new(),
+        [one] => one.clone(),
+        _ if names.len() > MOST => format!("{} or another", shown.join(", ")),
+        [init @ .., last] => format!("{} or {last}", init.join(", ")),
+    }
+}
+
+/// A rank for sorting and the words; none for what says nothing to a user.
+fn describe(expected: Rule) -> Option<(u8, String)> {
+    let debug = format!("{expected:?}");
+    if let Some(word) = debug.strip_prefix("kw_") {
+        return Some((1, format!("`{word}`")));
+    }
+    let text = match expected {
+        Rule::name => "a name",
+        Rule::integer => "a whole number",
+        Rule::edition => "an edition",
+        Rule::line_end | Rule::EOI => return Some((9, "the end of the line".into())),
+        Rule::comma => "`,`",
+        Rule::colon => "`:`",
+        Rule::equals => "`=`",
+        Rule::arrow => "`->`",
+        Rule::dot => "`.`",
+        Rule::dots => "`..`",
+        Rule::open_brace | Rule::fields | Rule::use_group => "`{`",
+        Rule::close_brace => "`}`",
+        Rule::open_paren | Rule::parameters => "`(`",
+        Rule::close_paren => "`)`",
+        Rule::open_bracket | Rule::index => "`[`",
+        Rule::close_bracket => "`]`",
+        Rule::plus | Rule::minus | Rule::times | Rule::slash => return Some((8, "an operator".into())),
+        Rule::unit => "a unit",
+        Rule::number | Rule::quantity => "a number",
+        Rule::text => "a text",
+        Rule::cell => "`0` or `1`",
+        Rule::direction => "a direction",
+        Rule::expr
+        | Rule::line_expr
+        | Rule::sum
+        | Rule::line_sum
+        | Rule::product
+        | Rule::line_product
+        | Rule::unary
+        | Rule::call
+        | Rule::reference
+        | Rule::list
+        | Rule::group
+        | Rule::colour => "a value",
+        Rule::argument => "an argument",
+        Rule::parameter => "a parameter",
+        Rule::type_name => "a type",
+        Rule::feature_ref => "a feature",
+        Rule::range => "a range",
+        Rule::field => "a name and its value",
+        Rule::row => "a class and its row",
+        Rule::place => "a feature and its place",
+        Rule::use_item => "`use`",
+        Rule::let_item => "`let`",
+        Rule::library | Rule::library_of => "`library`",
+        Rule::task => "`task`",
+        Rule::scene => "`scene`",
+        Rule::feature => "`feature`",
+        Rule::class => "`class`",
+        Rule::classes | Rule::classes_head => "`classes`",
+        Rule::rule | Rule::rule_head => "`rule`",
+        Rule::layout | Rule::layout_head => "`layout`",
+        Rule::for_each => "`for`",
+        Rule::detect
+        | Rule::measure
+        | Rule::predict
+        | Rule::goal
+        | Rule::camera
+        | Rule::space
+        | Rule::views
+        | Rule::thresholds
+        | Rule::limit
+        | Rule::overlap
+        | Rule::method
+        | Rule::gain_floor
+        | Rule::inspected
+        | Rule::verify
+        | Rule::sensor_model
+        | Rule::backdrop
+        | Rule::object
+        | Rule::turned
+        | Rule::marked
+        | Rule::prior => return Some((1, format!("`{debug}`"))),
+        Rule::hole => "`{name}`",
+        Rule::chunk | Rule::escape => "the end of the text (`\"`)",
+        _ => return None,
+    };
+    Some((if text.starts_with('`') { 1 } else { 0 }, text.to_owned()))
+}

@@ -1,0 +1,154 @@
+//! What is wrong with a region that the tolerant entry could not read.
+//!
+//! The region is parsed again by the strict entry of its kind. Where that gives
+//! up is the place, and what it would have read there is what was expected.
+
+use pest::Parser as _;
+use pest::error::{Error, ErrorVariant, InputLocation};
+
+use super::{Grammar, Rule, expected, syntax_error};
+use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::names::suggest::{self, closest};
+use crate::lang::source::{FileId, Span};
+
+/// The strict entry for a kind of bad region.
+pub(super) fn strict_entry(bad: Rule) -> Option<Rule> {
+    Some(match bad {
+        Rule::bad_item => Rule::item_only,
+        Rule::bad_entry => Rule::entry_only,
+        Rule::bad_row => Rule::row_only,
+        Rule::bad_rule_statement => Rule::rule_statement_only,
+        Rule::bad_place => Rule::place_only,
+        Rule::bad_task_statement => Rule::task_statement_only,
+        Rule::bad_scene_statement => Rule::scene_statement_only,
+        _ => return None,
+    })
+}
+
+/// Says what is wrong with a bad region.
+pub(super) fn explain(region: Span, kind: Rule, text: &str) -> Diagnostic {
+    let part = &text[region.start..region.end];
+    let strict = strict_entry(kind).unwrap_or(Rule::item_only);
+    let Err(error) = Grammar::parse(strict, part) else {
+        return syntax_error(region, "this cannot be read here").help("put each statement on a line of its own");
+    };
+    let at = match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+    };
+    let expected = match error.variant {
+        ErrorVariant::ParsingError { positives, .. } => expected::names(&positives),
+        ErrorVariant::CustomError { .. } => return too_complex(region.file, &error),
+    };
+    let found = word_at(part, at);
+    let place = Span::new(region.file, region.start + at, region.start + at + found.len());
+    if found.is_empty() || found == "\n" {
+        return unfinished(region, at, &expected, part);
+    }
+    unexpected(place, found, &expected)
+}
+
+/// The parser gave up before an answer.
+pub(super) fn too_complex(file: FileId, error: &Error<Rule>) -> Diagnostic {
+    let at = match error.location {
+        InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
+    };
+    Diagnostic::new(Code::E0108, Span::new(file, at, at), "this file is too complex to read")
+        .help("split it into modules")
+}
+
+fn unexpected(place: Span, found: &str, expected: &[String]) -> Diagnostic {
+    let words: Vec<&str> = expected
+        .iter()
+        .filter_map(|e| e.strip_prefix('`')?.strip_suffix('`'))
+        .collect();
+    let is_word = found.starts_with(|c: char| c.is_ascii_alphabetic());
+    let similar = suggest::foreign(found)
+        .filter(|word| words.contains(word))
+        .or_else(|| is_word.then(|| closest(found, words.iter().copied())).flatten());
+    let out = syntax_error(place, message(expected, &format!("found `{found}`"))).label("not expected here");
+    match similar {
+        Some(word) => out
+            .help(format!("did you mean `{word}`?"))
+            .fix(format!("write `{word}`"), place, word),
+        None => out.maybe_help(advice(found, expected)),
+    }
+}
+
+/// The region ended too early: the place is where its text ends.
+fn unfinished(region: Span, at: usize, expected: &[String], part: &str) -> Diagnostic {
+    let end = region.start + part[..at].trim_end().len();
+    let last = Span::new(region.file, end, end);
+    let unclosed = expected.iter().any(|e| e == "`}`") && at >= part.trim_end().len();
+    let out = syntax_error(last, message(expected, "the text ends")).label("here");
+    if unclosed && let Some(open) = last_open_brace(part) {
+        let open = region.start + open;
+        return out
+            .related(Span::new(region.file, open, open + 1), "this `{` is not closed")
+            .help("add the missing `}`");
+    }
+    out
+}
+
+fn message(expected: &[String], found: &str) -> String {
+    match expected {
+        [] => format!("this cannot be read: {found}"),
+        _ => format!("expected {}, {found}", expected::list(expected)),
+    }
+}
+
+/// Advice for slips that the expected tokens alone do not explain.
+fn advice(found: &str, expected: &[String]) -> Option<String> {
+    let has = |token: &str| expected.iter().any(|e| e == token);
+    match found {
+        "\"" => Some("a text ends on its line with `\"`; write `\\{` for a brace in it".into()),
+        "'" => Some("a text stands in double quotes".into()),
+        "#" => Some("a comment begins with `//`".into()),
+        "/*" => Some("a comment begins with `//` and ends with its line".into()),
+        _ if suggest::RESERVED.contains(&found) => Some(format!(
+            "`{found}` begins a declaration: it is reserved, and stands neither here nor as a name"
+        )),
+        _ if has("the end of the line") => Some("a statement ends with its line, or with `;`".into()),
+        _ => None,
+    }
+}
+
+/// The word or mark at an offset.
+fn word_at(text: &str, at: usize) -> &str {
+    let rest = text.get(at..).unwrap_or("");
+    let Some(first) = rest.chars().next() else {
+        return "";
+    };
+    if matches!(first, '\n' | '\r') {
+        return "";
+    }
+    let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    if word(first) {
+        let end = rest.find(|c| !word(c)).unwrap_or(rest.len());
+        return &rest[..end];
+    }
+    ["/*", "=>", "==", "->", ".."]
+        .into_iter()
+        .find(|mark| rest.starts_with(mark))
+        .unwrap_or(&rest[..first.len_utf8()])
+}
+
+/// The offset of the innermost brace that is open where a text ends.
+fn last_open_brace(text: &str) -> Option<usize> {
+    let mut open = Vec::new();
+    let mut quoted = false;
+    let mut lines = 0;
+    for line in text.split_inclusive('\n') {
+        let code = line.split("//").next().unwrap_or(line);
+        for (k, c) in code.char_indices() {
+            match c {
+                '"' => quoted = !quoted,
+                '{' if !quoted => open.push(lines + k),
+                '}' if !quoted => drop(open.pop()),
+                _ => {}
+            }
+        }
+        quoted = false;
+        lines += line.len();
+    }
+    open.pop()
+}

@@ -1,0 +1,264 @@
+//! Calls: arguments against parameters, of primitives and of definitions.
+
+use std::collections::BTreeMap;
+
+use super::expressions::{Due, constant, made};
+use super::scope::Scope;
+use super::typed::{Expr, ExprKind};
+use super::{Checker, units};
+use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::names::suggest::{closest, one_of};
+use crate::lang::names::{DefinitionId, standard_home};
+use crate::lang::source::Span;
+use crate::lang::syntax::tree;
+use crate::primitives::{self, Default, Primitive, Type};
+
+/// A parameter of whatever is called.
+#[derive(Clone, Copy)]
+struct Wanted<'a> {
+    name: &'a str,
+    /// `None` where its declaration is wrong.
+    ty: Option<Type>,
+    required: bool,
+}
+
+impl Checker<'_> {
+    pub(super) fn call(&mut self, call: &tree::Call, span: Span, scope: Scope<'_>) -> Option<Expr> {
+        let name = &call.name.text;
+        match scope.module.scope.get(name) {
+            Some(Some(id)) => self.definition_call(*id, call, span, scope),
+            Some(None) => self.arguments_alone(call, scope),
+            None => match primitives::find(name) {
+                Some(primitive) => self.primitive_call(primitive, call, span, scope),
+                None => {
+                    self.unknown_callee(&call.name, scope);
+                    self.arguments_alone(call, scope)
+                }
+            },
+        }
+    }
+
+    /// Looks at the arguments of a call that means nothing.
+    fn arguments_alone(&mut self, call: &tree::Call, scope: Scope<'_>) -> Option<Expr> {
+        for argument in &call.arguments {
+            if !matches!(argument.value.kind, tree::ExprKind::Reference(_)) {
+                self.infer(&argument.value, scope);
+            }
+        }
+        None
+    }
+
+    pub(super) fn primitive_call(
+        &mut self,
+        primitive: &'static Primitive,
+        call: &tree::Call,
+        span: Span,
+        scope: Scope<'_>,
+    ) -> Option<Expr> {
+        let wanted: Vec<Wanted<'_>> = primitive
+            .parameters
+            .iter()
+            .map(|p| Wanted {
+                name: p.name,
+                ty: Some(p.ty),
+                required: matches!(p.default, Default::Required),
+            })
+            .collect();
+        let given = self.arguments(&wanted, call, scope)?;
+        let mut arguments = BTreeMap::new();
+        for (parameter, given) in primitive.parameters.iter().zip(given) {
+            let value = match (given, parameter.default) {
+                (Some(given), _) => given,
+                (None, Default::Value(value)) => constant(value(), parameter.ty, span),
+                (None, Default::Absent | Default::Required) => continue,
+            };
+            arguments.insert(parameter.name, value);
+        }
+        Some(made(ExprKind::Primitive(primitive, arguments), primitive.result, span))
+    }
+
+    pub(super) fn definition_call(
+        &mut self,
+        id: DefinitionId,
+        call: &tree::Call,
+        span: Span,
+        scope: Scope<'_>,
+    ) -> Option<Expr> {
+        let ty = self.definition(id);
+        let signature = self.signatures[id.0].clone();
+        let wanted: Vec<Wanted<'_>> = signature
+            .iter()
+            .map(|(name, ty)| Wanted {
+                name,
+                ty: *ty,
+                required: true,
+            })
+            .collect();
+        let given = self.arguments(&wanted, call, scope)?;
+        let given = given.into_iter().collect::<Option<Vec<Expr>>>()?;
+        Some(made(ExprKind::Definition(id, given), ty?, span))
+    }
+
+    /// The argument of each parameter in order; `None` for the whole where some is wrong.
+    fn arguments(&mut self, wanted: &[Wanted<'_>], call: &tree::Call, scope: Scope<'_>) -> Option<Vec<Option<Expr>>> {
+        let callee = &call.name.text;
+        let mut given: Vec<Option<Expr>> = wanted.iter().map(|_| None).collect();
+        let mut places: Vec<Option<Span>> = vec![None; wanted.len()];
+        let (mut right, mut named) = (true, false);
+        for (k, argument) in call.arguments.iter().enumerate() {
+            let slot = match &argument.name {
+                Some(name) => {
+                    named = true;
+                    self.named_slot(wanted, name, callee, scope)
+                }
+                None if named => {
+                    self.report(
+                        Diagnostic::new(
+                            Code::E0304,
+                            argument.value.span,
+                            "an argument without a name stands after one with a name",
+                        )
+                        .help("name it too, or move it before the named ones"),
+                    );
+                    None
+                }
+                None => self.positional_slot(wanted, k, argument.value.span, callee),
+            };
+            let Some(slot) = slot else {
+                right = false;
+                continue;
+            };
+            if let Some(first) = places[slot] {
+                let message = format!("`{}` is given twice", wanted[slot].name);
+                let out = Diagnostic::new(Code::E0304, argument.value.span, message);
+                self.report(out.related(first, "given first here"));
+                right = false;
+                continue;
+            }
+            places[slot] = Some(argument.value.span);
+            let what = format!("`{}` of `{callee}`", wanted[slot].name);
+            given[slot] = match wanted[slot].ty {
+                Some(ty) => self.check(&argument.value, Due { ty, what: &what }, scope),
+                None => None,
+            };
+            right &= given[slot].is_some();
+        }
+        right &= self.all_given(wanted, &places, call);
+        right.then_some(given)
+    }
+
+    fn named_slot(
+        &mut self,
+        wanted: &[Wanted<'_>],
+        name: &tree::Name,
+        callee: &str,
+        scope: Scope<'_>,
+    ) -> Option<usize> {
+        let slot = wanted.iter().position(|w| w.name == name.text);
+        if slot.is_some() || scope.lost(callee) {
+            return slot;
+        }
+        let names = || wanted.iter().map(|w| w.name);
+        let out = Diagnostic::new(
+            Code::E0304,
+            name.span,
+            format!("`{callee}` has no argument `{}`", name.text),
+        );
+        let out = match closest(&name.text, names()) {
+            Some(near) => out
+                .help(format!("did you mean `{near}`?"))
+                .fix(format!("write `{near}`"), name.span, near),
+            None if wanted.is_empty() => out.help(format!("write `{callee}()`")),
+            None => out.help(format!("its arguments are {}", list_names(wanted))),
+        };
+        self.report(out);
+        None
+    }
+
+    fn positional_slot(&mut self, wanted: &[Wanted<'_>], k: usize, span: Span, callee: &str) -> Option<usize> {
+        if k < wanted.len() {
+            return Some(k);
+        }
+        let takes = match wanted.len() {
+            0 => "no arguments".to_owned(),
+            1 => "one argument".to_owned(),
+            n => format!("{n} arguments"),
+        };
+        self.report(Diagnostic::new(Code::E0304, span, format!("`{callee}` takes {takes}")).label("one too many"));
+        None
+    }
+
+    fn all_given(&mut self, wanted: &[Wanted<'_>], places: &[Option<Span>], call: &tree::Call) -> bool {
+        let missing: Vec<&Wanted<'_>> = wanted
+            .iter()
+            .zip(places)
+            .filter(|(w, place)| w.required && place.is_none())
+            .map(|(w, _)| w)
+            .collect();
+        // An unknown argument is probably the missing one by another name.
+        let misnamed = call
+            .arguments
+            .iter()
+            .filter_map(|a| a.name.as_ref())
+            .any(|n| wanted.iter().all(|w| w.name != n.text));
+        if missing.is_empty() || misnamed {
+            return missing.is_empty();
+        }
+        let described: Vec<String> = missing
+            .iter()
+            .map(|w| match w.ty {
+                Some(ty) => format!("`{}` ({})", w.name, units::describe(ty)),
+                None => format!("`{}`", w.name),
+            })
+            .collect();
+        let callee = &call.name.text;
+        self.report(
+            Diagnostic::new(
+                Code::E0303,
+                call.name.span,
+                format!("`{callee}` lacks {}", described.join(" and ")),
+            )
+            .help(format!("its arguments are {}", list_names(wanted))),
+        );
+        false
+    }
+
+    pub(super) fn unknown_callee(&mut self, name: &tree::Name, scope: Scope<'_>) {
+        if scope.lost(&name.text) || !self.unknown.insert(name.text.clone()) {
+            return;
+        }
+        let out = Diagnostic::new(
+            Code::E0203,
+            name.span,
+            format!("there is no definition or primitive `{}`", name.text),
+        );
+        let known = scope.module.scope.keys().map(String::as_str);
+        let near = closest(&name.text, known.chain(primitives::all().map(|p| p.name)));
+        self.report(match (standard_home(&name.text), near) {
+            (Some(module), _) => self.with_import(out, module, &name.text),
+            (None, Some(near)) => {
+                out.help(format!("did you mean `{near}`?"))
+                    .fix(format!("write `{near}`"), name.span, near)
+            }
+            (None, None) => out.help("define it with `let`, or import it with `use`"),
+        });
+    }
+
+    /// Offers the import of a name of the standard library.
+    fn with_import(&self, out: Diagnostic, module: &str, name: &str) -> Diagnostic {
+        let line = format!("use std.{module}.{name}");
+        let tree = &self.program.main().tree;
+        let out = out.help(format!("it is in the standard library: add `{line}`"));
+        match &tree.edition {
+            Some(edition) if edition.span.file == out.primary.span.file => {
+                let at = edition.span.after();
+                out.fix(format!("add `{line}`"), at, format!("\n\n{line}"))
+            }
+            _ => out,
+        }
+    }
+}
+
+fn list_names(wanted: &[Wanted<'_>]) -> String {
+    one_of(wanted.iter().map(|w| w.name)).replace(" or ", " and ")
+}

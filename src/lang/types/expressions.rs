@@ -1,0 +1,417 @@
+//! Expressions: checked against a type where one is due, inferred elsewhere.
+
+use super::scope::Scope;
+use super::typed::{Expr, ExprKind, TextPart};
+use super::{Checker, colours, units};
+use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::names::suggest::{closest, one_of};
+use crate::lang::source::Span;
+use crate::lang::syntax::tree::{self, Operator};
+use crate::primitives::Type;
+use crate::rules::{Colour, Value};
+
+/// A type that is due, and for what.
+#[derive(Clone, Copy)]
+pub(super) struct Due<'a> {
+    pub ty: Type,
+    /// In words: "`radius`", "`height` of `prism`".
+    pub what: &'a str,
+}
+
+impl Checker<'_> {
+    /// Checks an expression against the type that is due; `None` where it is wrong.
+    pub(super) fn check(&mut self, e: &tree::Expr, due: Due<'_>, scope: Scope<'_>) -> Option<Expr> {
+        match &e.kind {
+            tree::ExprKind::Group(inner) => self.check(inner, due, scope),
+            tree::ExprKind::Else(a, b) => self.check_else(e.span, (a, b), due, scope),
+            tree::ExprKind::Quantity(q) if q.unit.is_none() && !units::of(due.ty).is_empty() => {
+                self.unit_missing(q, due)
+            }
+            tree::ExprKind::List(items) if takes_list(due.ty) => self.check_list(e.span, items, due, scope),
+            tree::ExprKind::Reference(r) if self.is_word(r, due.ty, scope) => self.word(r, due),
+            tree::ExprKind::Negate(inner) if units::is_quantity(due.ty) && due.ty != Type::Count => {
+                let inner = self.check(inner, due, scope)?;
+                let ty = inner.ty;
+                Some(made(ExprKind::Negate(Box::new(inner)), ty, e.span))
+            }
+            _ => {
+                let found = self.infer(e, scope)?;
+                self.coerce(found, due)
+            }
+        }
+    }
+
+    /// The type of an expression where none is due.
+    pub(super) fn infer(&mut self, e: &tree::Expr, scope: Scope<'_>) -> Option<Expr> {
+        match &e.kind {
+            tree::ExprKind::Quantity(q) => self.quantity(q, e.span),
+            tree::ExprKind::Text(parts) => self.text(parts, e.span, scope),
+            tree::ExprKind::Colour(digits) => self.colour(digits, e.span),
+            tree::ExprKind::Direction(sign, axis) => {
+                let mut v = crate::geometry::Vector::zeros();
+                v[*axis] = *sign;
+                Some(constant(Value::Direction(v), Type::Direction, e.span))
+            }
+            tree::ExprKind::Reference(r) => self.reference(r, scope),
+            tree::ExprKind::Call(call) => self.call(call, e.span, scope),
+            tree::ExprKind::List(items) => self.infer_list(items, e.span, scope),
+            tree::ExprKind::Group(inner) => self.infer(inner, scope),
+            tree::ExprKind::Negate(inner) => self.negate(inner, e.span, scope),
+            tree::ExprKind::Binary(op, a, b) => self.binary(*op, a, b, e.span, scope),
+            tree::ExprKind::Else(a, b) => {
+                let first = self.infer(a, scope)?;
+                let due = Due {
+                    ty: first.ty,
+                    what: "the value after `else`",
+                };
+                let second = self.check(b, due, scope)?;
+                self.in_a_rule(e.span, scope)?;
+                let ty = first.ty;
+                Some(made(ExprKind::Else(Box::new(first), Box::new(second)), ty, e.span))
+            }
+        }
+    }
+
+    fn check_else(
+        &mut self,
+        span: Span,
+        (a, b): (&tree::Expr, &tree::Expr),
+        due: Due<'_>,
+        scope: Scope<'_>,
+    ) -> Option<Expr> {
+        let (a, b) = (self.check(a, due, scope), self.check(b, due, scope));
+        self.in_a_rule(span, scope)?;
+        Some(made(ExprKind::Else(Box::new(a?), Box::new(b?)), due.ty, span))
+    }
+
+    fn in_a_rule(&mut self, span: Span, scope: Scope<'_>) -> Option<()> {
+        if scope.rule.is_some() || scope.parameters.is_some() {
+            return Some(());
+        }
+        self.report(
+            Diagnostic::new(
+                Code::E0305,
+                span,
+                "`else` has no use here: both values are known at once",
+            )
+            .help("`a else b` stands in a rule, for attributes that are not measured yet"),
+        );
+        None
+    }
+
+    fn quantity(&mut self, q: &tree::Quantity, span: Span) -> Option<Expr> {
+        let Some(unit) = &q.unit else {
+            return Some(match q.whole {
+                Some(n) => constant(Value::Count(n), Type::Count, span),
+                None => constant(Value::Number(q.value), Type::Number, span),
+            });
+        };
+        if let Some((ty, si)) = units::find(&unit.text) {
+            return Some(constant(units::value(ty, q.value, si), ty, span));
+        }
+        match q.whole {
+            Some(n) if units::NOUNS.contains(&unit.text.as_str()) => Some(constant(Value::Count(n), Type::Count, span)),
+            None if units::NOUNS.contains(&unit.text.as_str()) => {
+                let message = format!("`{}` counts whole things", unit.text);
+                self.report(Diagnostic::new(Code::E0302, span, message).help("write a whole number"));
+                None
+            }
+            _ => {
+                self.unknown_unit(unit);
+                None
+            }
+        }
+    }
+
+    fn unknown_unit(&mut self, unit: &tree::Name) {
+        let out = Diagnostic::new(Code::E0302, unit.span, format!("there is no unit `{}`", unit.text));
+        let near = closest(&unit.text, units::all())
+            .or_else(|| units::all().find(|u| crate::lang::names::suggest::foreign(&unit.text) == Some(u)));
+        let out = match near {
+            Some(near) => out
+                .help(format!("did you mean `{near}`?"))
+                .fix(format!("write `{near}`"), unit.span, near),
+            None => out.help(format!("units are {}", one_of(units::all()))),
+        };
+        self.report(out);
+    }
+
+    fn unit_missing<T>(&mut self, q: &tree::Quantity, due: Due<'_>) -> Option<T> {
+        let units = units::of(due.ty);
+        let unit = units.first().copied().unwrap_or_default();
+        let at = q.number;
+        let out = Diagnostic::new(
+            Code::E0302,
+            at,
+            format!("{} is {} and needs a unit", due.what, units::describe(due.ty)),
+        )
+        .label("a bare number")
+        .help(format!("add its unit: {}", one_of(units)))
+        .fix(format!("add `{unit}`"), at.after(), format!(" {unit}"));
+        self.report(out);
+        None
+    }
+
+    fn text(&mut self, parts: &[tree::TextPart], span: Span, scope: Scope<'_>) -> Option<Expr> {
+        let mut out = Vec::new();
+        for part in parts {
+            out.push(match part {
+                tree::TextPart::Literal(text) => TextPart::Literal(text.clone()),
+                tree::TextPart::Hole(name) => self.hole(name, scope)?,
+            });
+        }
+        Some(made(ExprKind::Text(out), Type::Text, span))
+    }
+
+    /// `{i}`: an index variable of the rule, or a text or count parameter.
+    fn hole(&mut self, name: &tree::Name, scope: Scope<'_>) -> Option<TextPart> {
+        let index = scope
+            .rule
+            .is_some_and(|r| r.indices.iter().any(|(n, _)| *n == name.text));
+        let parameter = match scope.parameter(&name.text) {
+            Some(None) => return None,
+            Some(ty) => matches!(ty, Some(Type::Text | Type::Count)),
+            None => false,
+        };
+        if index || parameter {
+            return Some(TextPart::Hole(name.text.clone()));
+        }
+        let known: Vec<&str> = scope
+            .rule
+            .map(|r| r.indices.iter().map(|(n, _)| n.as_str()).collect())
+            .unwrap_or_default();
+        let help = match known.as_slice() {
+            [] => "`{…}` in a text stands for an index variable like the `i` of `rule -> code[i]`; write `\\{` for a brace"
+                .to_owned(),
+            known => format!("in scope is {}; write `\\{{` for a brace", one_of(known.iter().copied())),
+        };
+        self.report(
+            Diagnostic::new(
+                Code::E0201,
+                name.span,
+                format!("`{}` is no index variable here", name.text),
+            )
+            .help(help),
+        );
+        None
+    }
+
+    fn colour(&mut self, digits: &str, span: Span) -> Option<Expr> {
+        match Colour::try_from(format!("#{digits}")) {
+            Ok(colour) => Some(constant(Value::Colour(colour), Type::Colour, span)),
+            Err(_) => {
+                self.report(
+                    Diagnostic::new(Code::E0110, span, format!("`#{digits}` is no colour"))
+                        .help("write six hexadecimal digits, like `#ff8000`"),
+                );
+                None
+            }
+        }
+    }
+
+    fn check_list(&mut self, span: Span, items: &[tree::Expr], due: Due<'_>, scope: Scope<'_>) -> Option<Expr> {
+        let (element, triple) = match due.ty {
+            Type::Point => (Type::Length, true),
+            Type::Direction => (Type::Number, true),
+            Type::List(element) => (*element, false),
+            _ => return None,
+        };
+        let inner = Due { ty: element, ..due };
+        let what = format!("a coordinate of {}", due.what);
+        let inner = if triple { Due { what: &what, ..inner } } else { inner };
+        let list: Vec<Option<Expr>> = items.iter().map(|item| self.check(item, inner, scope)).collect();
+        if triple && items.len() != 3 {
+            let message = format!("{} has three coordinates, and here are {}", due.what, items.len());
+            let example = units::example(due.ty).unwrap_or_default();
+            self.report(Diagnostic::new(Code::E0301, span, message).help(format!("write it {example}")));
+            return None;
+        }
+        let list = list.into_iter().collect::<Option<_>>()?;
+        Some(made(ExprKind::List(list), due.ty, span))
+    }
+
+    /// Three lengths are a point; other lists have the type of their elements.
+    fn infer_list(&mut self, items: &[tree::Expr], span: Span, scope: Scope<'_>) -> Option<Expr> {
+        let Some((first, rest)) = items.split_first() else {
+            self.report(Diagnostic::new(Code::E0301, span, "an empty list says nothing here").help("leave it out"));
+            return None;
+        };
+        let first = self.infer(first, scope)?;
+        let element = if first.ty == Type::Count {
+            Type::Number
+        } else {
+            first.ty
+        };
+        let due = Due {
+            ty: element,
+            what: "each element of this list",
+        };
+        let mut list = vec![self.coerce(first, due)?];
+        for item in rest {
+            list.push(self.check(item, due, scope)?);
+        }
+        let ty = match (element, list.len()) {
+            (Type::Length, 3) => Type::Point,
+            (Type::Number, 3) => Type::Direction,
+            _ => match units::list_of(element) {
+                Some(ty) => ty,
+                None => {
+                    let message = format!("there are no lists of {}", units::describe(element));
+                    self.report(Diagnostic::new(Code::E0301, span, message));
+                    return None;
+                }
+            },
+        };
+        Some(made(ExprKind::List(list), ty, span))
+    }
+
+    fn negate(&mut self, inner: &tree::Expr, span: Span, scope: Scope<'_>) -> Option<Expr> {
+        let inner = self.infer(inner, scope)?;
+        let ty = match inner.ty {
+            Type::Count => Type::Number,
+            ty if units::is_quantity(ty) || ty == Type::Direction => ty,
+            ty => {
+                let message = format!("{} has no negative", units::describe(ty));
+                self.report(Diagnostic::new(Code::E0305, span, message));
+                return None;
+            }
+        };
+        Some(made(ExprKind::Negate(Box::new(inner)), ty, span))
+    }
+
+    fn binary(&mut self, op: Operator, a: &tree::Expr, b: &tree::Expr, span: Span, scope: Scope<'_>) -> Option<Expr> {
+        let left = self.infer(a, scope);
+        let right = match (op, &left) {
+            (Operator::Add | Operator::Subtract, Some(l)) if !units::of(l.ty).is_empty() || l.ty == Type::Point => {
+                let what = format!("the right side of `{}`", op.symbol());
+                self.check(b, Due { ty: l.ty, what: &what }, scope)
+            }
+            _ => self.infer(b, scope),
+        };
+        let (left, right) = (left?, right?);
+        let Some(ty) = combined(op, left.ty, right.ty) else {
+            self.report(cannot_combine(op, &left, &right, span));
+            return None;
+        };
+        Some(made(ExprKind::Binary(op, Box::new(left), Box::new(right)), ty, span))
+    }
+
+    /// Turns what is meant anyway into the type that is due.
+    pub(super) fn coerce(&mut self, found: Expr, due: Due<'_>) -> Option<Expr> {
+        let fits = found.ty == due.ty
+            || matches!(
+                (found.ty, due.ty),
+                (Type::Count, Type::Number) | (Type::Edges, Type::List(Type::Edge))
+            );
+        if fits {
+            return Some(Expr { ty: due.ty, ..found });
+        }
+        let mut out = Diagnostic::new(
+            Code::E0301,
+            found.span,
+            format!(
+                "{} is {}, and this is {}",
+                due.what,
+                units::describe(due.ty),
+                units::describe(found.ty)
+            ),
+        )
+        .label(units::describe(found.ty));
+        if let Some(example) = units::example(due.ty) {
+            out = out.help(format!("write {} {example}", units::describe(due.ty)));
+        }
+        self.report(out);
+        None
+    }
+
+    /// Whether a reference is a colour or one of some words rather than a name.
+    fn is_word(&self, r: &tree::Reference, due: Type, scope: Scope<'_>) -> bool {
+        let name = &r.name.text;
+        let plain = r.index.is_none() && r.fields.is_empty();
+        let named = scope.parameter(name).is_some()
+            || scope.variable(name).is_some()
+            || (scope.module.scope.contains_key(name) && colours::named(name).is_none());
+        plain && !named && matches!(due, Type::Colour | Type::Choice(_))
+    }
+
+    fn word(&mut self, r: &tree::Reference, due: Due<'_>) -> Option<Expr> {
+        let name = &r.name;
+        let words: Vec<&str> = match due.ty {
+            Type::Choice(words) => words.to_vec(),
+            _ => colours::names().collect(),
+        };
+        let value = match due.ty {
+            Type::Choice(_) if words.contains(&name.text.as_str()) => Some(Value::Choice(name.text.clone())),
+            Type::Choice(_) => None,
+            _ => colours::named(&name.text).map(Value::Colour),
+        };
+        match value {
+            Some(value) => Some(constant(value, due.ty, r.span)),
+            None => {
+                self.unknown_word(name, due.what, &words);
+                None
+            }
+        }
+    }
+
+    /// Reports a word that is none of those that are due.
+    pub(super) fn unknown_word(&mut self, name: &tree::Name, what: &str, words: &[&str]) {
+        let out = Diagnostic::new(Code::E0306, name.span, format!("{what} cannot be `{}`", name.text));
+        let out = match closest(&name.text, words.iter().copied()) {
+            Some(near) => out
+                .help(format!("did you mean `{near}`?"))
+                .fix(format!("write `{near}`"), name.span, near),
+            None => out.help(format!("it is {}", one_of(words.iter().copied()))),
+        };
+        self.report(out);
+    }
+}
+
+fn takes_list(ty: Type) -> bool {
+    matches!(ty, Type::Point | Type::Direction | Type::List(_))
+}
+
+/// The type of a sum, difference, product or quotient.
+fn combined(op: Operator, left: Type, right: Type) -> Option<Type> {
+    let number = |ty| matches!(ty, Type::Number | Type::Count);
+    match op {
+        Operator::Add | Operator::Subtract if left == Type::Point && right == Type::Point => Some(Type::Point),
+        Operator::Add if left == Type::Count && right == Type::Count => Some(Type::Count),
+        Operator::Add | Operator::Subtract if number(left) && number(right) => Some(Type::Number),
+        Operator::Add | Operator::Subtract => (left == right && units::is_quantity(left)).then_some(left),
+        Operator::Multiply if left == Type::Count && right == Type::Count => Some(Type::Count),
+        Operator::Multiply | Operator::Divide if number(left) && number(right) => Some(Type::Number),
+        Operator::Multiply if number(left) => units::is_quantity(right).then_some(right),
+        Operator::Multiply | Operator::Divide if number(right) => units::is_quantity(left).then_some(left),
+        Operator::Multiply | Operator::Divide => None,
+    }
+}
+
+fn cannot_combine(op: Operator, left: &Expr, right: &Expr, span: Span) -> Diagnostic {
+    let help = match op {
+        Operator::Add | Operator::Subtract => "both sides need the same dimension",
+        Operator::Multiply => "one side of `*` is a bare number",
+        Operator::Divide => "the right side of `/` is a bare number",
+    };
+    Diagnostic::new(
+        Code::E0305,
+        span,
+        format!(
+            "{} and {} cannot be combined with `{}`",
+            units::describe(left.ty),
+            units::describe(right.ty),
+            op.symbol()
+        ),
+    )
+    .related(left.span, units::describe(left.ty))
+    .related(right.span, units::describe(right.ty))
+    .help(help)
+}
+
+pub(super) fn made(kind: ExprKind, ty: Type, span: Span) -> Expr {
+    Expr { kind, ty, span }
+}
+
+pub(super) fn constant(value: Value, ty: Type, span: Span) -> Expr {
+    made(ExprKind::Value(value), ty, span)
+}

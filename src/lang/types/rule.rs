@@ -1,0 +1,265 @@
+//! Rules: their features, variables and the three calls.
+
+use super::Checker;
+use super::expressions::Due;
+use super::features::feature_use;
+use super::scope::{Role, RuleScope, Scope, declared, index_use};
+use super::typed::{Each, Expr, ExprKind, Families, FeatureUse, IndexUse, Rule};
+use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::source::Span;
+use crate::lang::syntax::tree::{self, Index};
+use crate::primitives::Type;
+
+impl<'a> Checker<'a> {
+    pub(super) fn rule(&mut self, rule: &'a tree::Rule, families: &Families) -> Option<Rule> {
+        let mut scope = self.rule_scope(rule, families)?;
+        let each = self.each(rule, &mut scope);
+        let inside = Scope {
+            rule: Some(&scope),
+            ..Scope::of(self.program.main())
+        };
+        let detect = self.part(rule, &rule.detect, "detect", Type::Detector, inside);
+        let measure = self.part(rule, &rule.measure, "measure", Type::Measure, inside);
+        let predict = self.prediction(rule, inside);
+        for part in [&detect, &measure, &predict].into_iter().flatten() {
+            self.fallbacks(part, &scope, false);
+        }
+        Some(Rule {
+            each: each?,
+            detect: detect?,
+            measure: measure?,
+            predict: if rule.predict.is_empty() { None } else { Some(predict?) },
+            antecedents: scope.antecedents,
+            consequent: scope.consequent,
+            indices: scope.indices,
+            span: rule.head,
+        })
+    }
+
+    /// The features and index variables of a rule's `->` line.
+    fn rule_scope<'f>(&mut self, rule: &tree::Rule, families: &'f Families) -> Option<RuleScope<'f>> {
+        let heads: Vec<&tree::FeatureRef> = rule.antecedents.iter().chain([&rule.consequent]).collect();
+        let indices = self.indices(&heads, families);
+        let mut scope = RuleScope {
+            families,
+            antecedents: Vec::new(),
+            consequent: plain_use(&rule.consequent),
+            each: Vec::new(),
+            indices,
+        };
+        let uses: Vec<Option<FeatureUse>> = heads
+            .iter()
+            .map(|f| feature_use(self, &f.name, f.index.as_ref(), f.span, families, Some(&scope)))
+            .collect();
+        let mut uses = uses.into_iter().collect::<Option<Vec<_>>>()?;
+        scope.consequent = uses.pop()?;
+        self.antecedents_differ(&uses, &scope.consequent)?;
+        scope.antecedents = uses;
+        Some(scope)
+    }
+
+    /// The values of each index variable: those that all its families declare.
+    fn indices(&mut self, heads: &[&tree::FeatureRef], families: &Families) -> Vec<(String, Vec<u64>)> {
+        let mut out: Vec<(String, Vec<u64>)> = Vec::new();
+        for head in heads {
+            let (Some(Index::Variable(name)), Some(family)) = (&head.index, families.0.get(&head.name.text)) else {
+                continue;
+            };
+            let values = declared(family);
+            match out.iter_mut().find(|(n, _)| *n == name.text) {
+                Some((_, known)) => known.retain(|v| values.contains(v)),
+                None => out.push((name.text.clone(), values)),
+            }
+        }
+        out
+    }
+
+    fn antecedents_differ(&mut self, antecedents: &[FeatureUse], consequent: &FeatureUse) -> Option<()> {
+        let same = |a: &FeatureUse, b: &FeatureUse| a.family == b.family && a.index == b.index;
+        for (k, antecedent) in antecedents.iter().enumerate() {
+            let (other, message) = if same(antecedent, consequent) {
+                (
+                    consequent.span,
+                    format!("`{}` cannot be its own antecedent", antecedent.family),
+                )
+            } else if let Some(first) = antecedents[..k].iter().find(|a| same(a, antecedent)) {
+                (first.span, format!("`{}` is an antecedent twice", antecedent.family))
+            } else {
+                continue;
+            };
+            let out = Diagnostic::new(Code::E0305, antecedent.span, message);
+            self.report(out.related(other, "the same feature"));
+            return None;
+        }
+        Some(())
+    }
+
+    /// `for each` variables, outermost first; each can see those before it.
+    fn each(&mut self, rule: &tree::Rule, scope: &mut RuleScope<'_>) -> Option<Vec<Each>> {
+        let mut out = Some(Vec::new());
+        for each in &rule.each {
+            let name = &each.variable;
+            let taken = scope.each.iter().any(|(n, _)| *n == name.text)
+                || scope.families.0.contains_key(&name.text)
+                || scope.indices.iter().any(|(n, _)| *n == name.text);
+            if taken {
+                let message = format!("`{}` already means something in this rule", name.text);
+                let out = Diagnostic::new(Code::E0202, name.span, message);
+                self.report(out.help("give the variable another name"));
+            }
+            let checked = self.one_each(each, scope);
+            scope
+                .each
+                .push((name.text.clone(), checked.as_ref().map(|_| Type::Edge)));
+            match (checked, &mut out) {
+                (Some(each), Some(list)) => list.push(each),
+                _ => out = None,
+            }
+        }
+        out
+    }
+
+    fn one_each(&mut self, each: &tree::ForEach, scope: &RuleScope<'_>) -> Option<Each> {
+        let over = &each.over;
+        let feature = feature_use(
+            self,
+            &over.name,
+            over.index.as_ref(),
+            over.span,
+            scope.families,
+            Some(scope),
+        )?;
+        let kind = scope.families.0.get(&feature.family)?.kind;
+        let [field] = over.fields.as_slice() else {
+            self.report(
+                Diagnostic::new(
+                    Code::E0206,
+                    over.span,
+                    "`for each` goes over a list of a measured feature",
+                )
+                .help(format!("write `{}.edges`", feature.family)),
+            );
+            return None;
+        };
+        let (attribute, ty) = self.attribute(&feature, field, kind)?;
+        if ty != Type::Edges {
+            let message = format!("`{attribute}` is {}, and no list", super::units::describe(ty));
+            let help = format!("`for each` goes over `{}.edges`", feature.family);
+            self.report(Diagnostic::new(Code::E0301, field.span, message).help(help));
+            return None;
+        }
+        if scope.role(&feature) != Role::Antecedent {
+            self.report(
+                Diagnostic::new(
+                    Code::E0205,
+                    over.span,
+                    format!("`{}` is no antecedent of this rule", feature.family),
+                )
+                .help("`for each` goes over parts of what the rule starts from"),
+            );
+            return None;
+        }
+        Some(Each {
+            variable: each.variable.text.clone(),
+            feature,
+            attribute,
+        })
+    }
+
+    /// A statement that a rule has exactly once.
+    fn part(
+        &mut self,
+        rule: &tree::Rule,
+        statements: &[tree::Statement],
+        word: &str,
+        ty: Type,
+        scope: Scope<'_>,
+    ) -> Option<Expr> {
+        let Some((first, rest)) = statements.split_first() else {
+            if rule.whole {
+                let message = format!("this rule has no `{word}`");
+                let help = match ty {
+                    Type::Detector => "say what proves the feature, like `detect coloured_plane(red)`",
+                    Type::Measure => "say what measures it once detected, like `measure outline()`",
+                    _ => "say where it must be, like `predict square_under(prism_side.base)`",
+                };
+                self.report(Diagnostic::new(Code::E0308, rule.head, message).help(help));
+            }
+            return None;
+        };
+        for again in rest {
+            self.surplus(again.span, first.span, word);
+        }
+        let what = format!("`{word}`");
+        self.check(&first.value, Due { ty, what: &what }, scope)
+    }
+
+    /// Reports a statement that stands there twice.
+    pub(super) fn surplus(&mut self, span: Span, first: Span, word: &str) {
+        let out = Diagnostic::new(Code::E0308, span, format!("`{word}` stands here twice"));
+        self.report(out.related(first, "first here").help("leave one of them out"));
+    }
+
+    fn prediction(&mut self, rule: &tree::Rule, scope: Scope<'_>) -> Option<Expr> {
+        let definite = rule.antecedents.is_empty();
+        match (definite, rule.predict.first()) {
+            (true, Some(predict)) => {
+                self.report(
+                    Diagnostic::new(Code::E0308, predict.span, "a rule without antecedents predicts nothing")
+                        .related(rule.head, "nothing stands before the `->`")
+                        .help("leave `predict` out, or name the features that the prediction follows from"),
+                );
+                None
+            }
+            (true, None) => None,
+            (false, _) => self.part(rule, &rule.predict, "predict", Type::Predictor, scope),
+        }
+    }
+
+    /// Warns of attributes of the consequent that stand without `else`: they have no
+    /// value before the first instance is measured.
+    fn fallbacks(&mut self, e: &Expr, scope: &RuleScope<'_>, covered: bool) {
+        match &e.kind {
+            ExprKind::Attribute(feature, name) if !covered && scope.role(feature) == Role::Consequent => {
+                self.report(
+                    Diagnostic::new(
+                        Code::W0401,
+                        e.span,
+                        format!(
+                            "`{}.{name}` has no value before the first `{0}` is measured",
+                            feature.family
+                        ),
+                    )
+                    .help("add what holds until then: `… else 300 mm`"),
+                );
+            }
+            ExprKind::Else(a, b) => {
+                self.fallbacks(a, scope, true);
+                self.fallbacks(b, scope, covered);
+            }
+            ExprKind::Binary(_, a, b) => {
+                self.fallbacks(a, scope, covered);
+                self.fallbacks(b, scope, covered);
+            }
+            ExprKind::Negate(a) => self.fallbacks(a, scope, covered),
+            ExprKind::List(items) | ExprKind::Definition(_, items) => {
+                items.iter().for_each(|item| self.fallbacks(item, scope, covered));
+            }
+            ExprKind::Primitive(_, arguments) => {
+                arguments
+                    .values()
+                    .for_each(|argument| self.fallbacks(argument, scope, covered));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// A use of a feature before it is checked.
+fn plain_use(feature: &tree::FeatureRef) -> FeatureUse {
+    FeatureUse {
+        family: feature.name.text.clone(),
+        index: index_use(feature.index.as_ref()).unwrap_or(IndexUse::None),
+        span: feature.span,
+    }
+}

@@ -1,0 +1,297 @@
+//! Tasks: each statement once, each value of its type.
+
+use std::collections::BTreeMap;
+
+use super::Checker;
+use super::expressions::Due;
+use super::forms::SPACES;
+use super::scope::Scope;
+use super::typed::{Expr, Library, Task};
+use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::names::suggest::{closest, one_of};
+use crate::lang::source::Span;
+use crate::lang::syntax::tree::{self, TaskStatementKind as Kind};
+use crate::primitives::Type;
+use crate::rules::{Goal, Inspected};
+
+/// The methods of choosing views.
+const METHODS: &[&str] = &[
+    "gn", "gno", "joint", "oa", "uv", "rsv", "rse", "pc", "af", "ae", "ts", "pfdt", "random",
+];
+/// The method where a task names none.
+const USUAL_METHOD: &str = "gn";
+const THRESHOLDS: &[(&str, Type)] = &[
+    ("near", Type::Length),
+    ("absent", Type::Share),
+    ("confidence", Type::Share),
+];
+const SENSOR_MODEL: &[(&str, Type)] = &[
+    ("hit", Type::Share),
+    ("miss", Type::Share),
+    ("clamp_min", Type::Share),
+    ("clamp_max", Type::Share),
+    ("occupied", Type::Share),
+];
+
+/// What the statements of a task gave so far.
+#[derive(Default)]
+struct Draft {
+    seen: BTreeMap<&'static str, Span>,
+    library: Option<String>,
+    goal: Option<Goal>,
+    values: BTreeMap<&'static str, Expr>,
+    method: Option<String>,
+    inspected: Option<Inspected>,
+    verify: bool,
+    thresholds: BTreeMap<&'static str, Expr>,
+    sensor_model: BTreeMap<&'static str, Expr>,
+}
+
+impl<'a> Checker<'a> {
+    pub(super) fn task(&mut self, task: &'a tree::Task, libraries: &[Library]) -> Option<Task> {
+        let mut draft = Draft::default();
+        for statement in &task.statements {
+            let word = statement.kind.word();
+            match draft.seen.get(word) {
+                Some(first) => self.surplus(statement.span, *first, word),
+                None => {
+                    draft.seen.insert(word, statement.span);
+                    self.statement(statement, &mut draft, libraries);
+                }
+            }
+        }
+        self.nothing_missing(task, &draft);
+        self.thresholds_complete(&draft);
+        assemble(task, draft)
+    }
+
+    fn statement(&mut self, statement: &tree::TaskStatement, draft: &mut Draft, libraries: &[Library]) {
+        match &statement.kind {
+            Kind::Library(name) => draft.library = self.library_of(name, libraries),
+            Kind::Goal(words) => draft.goal = self.goal(words),
+            Kind::Camera(e) => self.value(draft, "camera", e, Type::Camera),
+            Kind::Space { shape, at, voxel } => {
+                let scope = Scope::of(self.program.main());
+                let shape = self.form(shape, SPACES, "`space`", scope);
+                draft.values.extend(shape.map(|shape| ("space", shape)));
+                self.value(draft, "at", at, Type::Point);
+                self.value(draft, "voxel", voxel, Type::Length);
+            }
+            Kind::Views(e) => self.value(draft, "views", e, Type::Views),
+            Kind::Thresholds(fields) => draft.thresholds = self.fields(fields, THRESHOLDS, "thresholds"),
+            Kind::Limit(e) => self.count(draft, "limit", e, "views"),
+            Kind::Overlap(e) => self.value(draft, "overlap", e, Type::Share),
+            Kind::Method(name) => draft.method = self.method(name),
+            Kind::GainFloor(e) => self.count(draft, "gain_floor", e, "voxels"),
+            Kind::Inspected(name) => {
+                draft.inspected = self
+                    .one_of_words(name, "`inspected`", &["observed", "near_point"])
+                    .map(|word| {
+                        if word == "near_point" {
+                            Inspected::NearPoint
+                        } else {
+                            Inspected::Observed
+                        }
+                    });
+            }
+            Kind::Verify(name) => draft.verify = self.one_of_words(name, "`verify`", &["all"]).is_some(),
+            Kind::SensorModel(fields) => draft.sensor_model = self.fields(fields, SENSOR_MODEL, "sensor_model"),
+        }
+    }
+
+    fn value(&mut self, draft: &mut Draft, word: &'static str, e: &tree::Expr, ty: Type) {
+        let what = format!("`{word}`");
+        let value = self.check(e, Due { ty, what: &what }, Scope::of(self.program.main()));
+        draft.values.extend(value.map(|value| (word, value)));
+    }
+
+    /// A count with its own noun or none: `20 views`, not `20 voxels`.
+    fn count(&mut self, draft: &mut Draft, word: &'static str, e: &tree::Expr, noun: &str) {
+        if let tree::ExprKind::Quantity(q) = &e.kind
+            && let Some(unit) = q
+                .unit
+                .as_ref()
+                .filter(|u| super::units::all().any(|known| known == u.text))
+            && unit.text != noun
+        {
+            let message = format!("`{word}` counts {noun}, not `{}`", unit.text);
+            let out = Diagnostic::new(Code::E0302, unit.span, message);
+            self.report(
+                out.help(format!("write `{noun}`"))
+                    .fix(format!("write `{noun}`"), unit.span, noun),
+            );
+            return;
+        }
+        self.value(draft, word, e, Type::Count);
+    }
+
+    fn library_of(&mut self, name: &tree::Name, libraries: &[Library]) -> Option<String> {
+        if libraries.iter().any(|l| l.name == name.text) {
+            return Some(name.text.clone());
+        }
+        self.unknown_item("library", name, libraries.iter().map(|l| l.name.as_str()));
+        None
+    }
+
+    /// Reports a library, class or layout that is not there.
+    pub(super) fn unknown_item<'n>(
+        &mut self,
+        kind: &str,
+        name: &tree::Name,
+        known: impl Iterator<Item = &'n str> + Clone,
+    ) {
+        if self.program.main().lost.contains(&name.text) || !self.unknown.insert(format!("{kind} {}", name.text)) {
+            return;
+        }
+        let out = Diagnostic::new(Code::E0208, name.span, format!("there is no {kind} `{}`", name.text));
+        self.report(match closest(&name.text, known.clone()) {
+            Some(near) => out
+                .help(format!("did you mean `{near}`?"))
+                .fix(format!("write `{near}`"), name.span, near),
+            None if known.clone().next().is_none() => out.help(format!("declare it: `{kind} {} {{ … }}`", name.text)),
+            None => out.help(format!("there is {}", one_of(known).replace(" or ", " and "))),
+        });
+    }
+
+    fn goal(&mut self, words: &[tree::Name]) -> Option<Goal> {
+        let mut goal = Goal {
+            confident: false,
+            exhausted: false,
+        };
+        for name in words {
+            let part = match self.one_of_words(name, "`goal`", &["confident", "exhausted"])? {
+                "confident" => &mut goal.confident,
+                _ => &mut goal.exhausted,
+            };
+            if std::mem::replace(part, true) {
+                let message = format!("`{}` stands twice in the goal", name.text);
+                self.report(Diagnostic::new(Code::E0308, name.span, message));
+            }
+        }
+        Some(goal)
+    }
+
+    fn one_of_words(&mut self, name: &tree::Name, what: &str, words: &[&'static str]) -> Option<&'static str> {
+        let found = words.iter().find(|w| **w == name.text).copied();
+        if found.is_none() {
+            self.unknown_word(name, what, words);
+        }
+        found
+    }
+
+    fn method(&mut self, name: &tree::Name) -> Option<String> {
+        let lower = name.text.to_ascii_lowercase();
+        if METHODS.contains(&lower.as_str()) {
+            return Some(lower);
+        }
+        self.unknown_word(name, "`method`", METHODS);
+        None
+    }
+
+    fn fields(
+        &mut self,
+        fields: &[tree::Field],
+        known: &[(&'static str, Type)],
+        word: &str,
+    ) -> BTreeMap<&'static str, Expr> {
+        let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
+        let mut out = BTreeMap::new();
+        for field in fields {
+            let name = &field.name;
+            let Some((known_name, ty)) = known.iter().find(|(n, _)| *n == name.text) else {
+                let names: Vec<&str> = known.iter().map(|(n, _)| *n).collect();
+                self.unknown_word(name, &format!("a field of `{word}`"), &names);
+                continue;
+            };
+            if let Some(first) = seen.insert(known_name, name.span) {
+                self.surplus(name.span, first, &name.text);
+                continue;
+            }
+            let what = format!("`{known_name}`");
+            let due = Due { ty: *ty, what: &what };
+            let value = self.check(&field.value, due, Scope::of(self.program.main()));
+            out.extend(value.map(|value| (*known_name, value)));
+        }
+        // A field that is wrong is not missing, too.
+        for (name, _) in known
+            .iter()
+            .filter(|(n, _)| seen.contains_key(n) && !out.contains_key(n))
+        {
+            self.unknown.insert(format!("{word} {name}"));
+        }
+        out
+    }
+
+    fn nothing_missing(&mut self, task: &tree::Task, draft: &Draft) {
+        const NEEDED: &[(&str, &str)] = &[
+            ("library", "library solids"),
+            ("goal", "goal confident"),
+            ("camera", "camera kinect_v2"),
+            ("space", "space cube(600 mm) at [0 mm, 0 mm, 300 mm] voxel 10 mm"),
+            ("views", "views sphere(radius: 1.4 m, count: 64)"),
+            (
+                "thresholds",
+                "thresholds { near: 10 mm, absent: 99 %, confidence: 99 % }",
+            ),
+        ];
+        if !task.whole {
+            return;
+        }
+        let missing: Vec<_> = NEEDED
+            .iter()
+            .filter(|(word, _)| !draft.seen.contains_key(word))
+            .collect();
+        if missing.is_empty() {
+            return;
+        }
+        let words: Vec<String> = missing.iter().map(|(word, _)| format!("`{word}`")).collect();
+        let lines: Vec<String> = missing.iter().map(|(_, example)| format!("`{example}`")).collect();
+        let message = format!("task `{}` has no {}", task.name.text, words.join(", no "));
+        let help = format!("add {}", lines.join(", "));
+        self.report(Diagnostic::new(Code::E0308, task.name.span, message).help(help));
+    }
+
+    fn thresholds_complete(&mut self, draft: &Draft) {
+        let Some(span) = draft.seen.get("thresholds") else {
+            return;
+        };
+        let missing: Vec<&str> = THRESHOLDS
+            .iter()
+            .map(|(name, _)| *name)
+            .filter(|name| {
+                !draft.thresholds.contains_key(name) && !self.unknown.contains(&format!("thresholds {name}"))
+            })
+            .collect();
+        if !missing.is_empty() {
+            let words: Vec<String> = missing.iter().map(|w| format!("`{w}`")).collect();
+            let message = format!("`thresholds` lacks {}", words.join(" and "));
+            let help = "write all three: `thresholds { near: 10 mm, absent: 99 %, confidence: 99 % }`";
+            self.report(Diagnostic::new(Code::E0308, *span, message).help(help));
+        }
+    }
+}
+
+/// The task, where everything that it needs is there and right.
+fn assemble(task: &tree::Task, mut draft: Draft) -> Option<Task> {
+    Some(Task {
+        name: task.name.text.clone(),
+        library: draft.library?,
+        goal: draft.goal?,
+        camera: draft.values.remove("camera")?,
+        shape: draft.values.remove("space")?,
+        at: draft.values.remove("at")?,
+        voxel: draft.values.remove("voxel")?,
+        views: draft.values.remove("views")?,
+        near: draft.thresholds.remove("near")?,
+        absent: draft.thresholds.remove("absent")?,
+        confidence: draft.thresholds.remove("confidence")?,
+        overlap: draft.values.remove("overlap"),
+        limit: draft.values.remove("limit"),
+        gain_floor: draft.values.remove("gain_floor"),
+        method: draft.method.unwrap_or_else(|| USUAL_METHOD.to_owned()),
+        inspected: draft.inspected.unwrap_or(Inspected::Observed),
+        verify: draft.verify,
+        sensor_model: draft.sensor_model,
+        span: task.head,
+    })
+}
