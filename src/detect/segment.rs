@@ -32,8 +32,14 @@ const TOLERANCE: (f64, f64) = (0.0025, 0.020);
 const SIGMAS: f64 = 3.5;
 /// A view's noise from which normals are taken over a wider window, metres.
 const NOISY: f64 = 0.0035;
+/// How far a frayed border strays from its plane, in units of the tolerance.
+const FRAYED: f64 = 2.0;
+/// Share of frayed pixels from which a region is no face of its own.
+const SLIVER: f64 = 0.8;
 /// Sweeps that hand border pixels to the plane they fit best.
-const SWEEPS: usize = 4;
+const SWEEPS: usize = 12;
+/// Sweeps after which the planes are fitted again.
+const SWEEPS_A_FIT: usize = 4;
 
 /// The planar regions of a view, largest first.
 pub fn segment(cloud: &Cloud) -> Vec<Region> {
@@ -151,9 +157,14 @@ impl<'a> Growth<'a> {
 
     /// Hands each pixel near a border to the neighbouring plane that fits it best.
     fn compete(&mut self) {
-        for _ in 0..SWEEPS {
-            self.refit();
+        for sweep in 0..SWEEPS {
+            if sweep % SWEEPS_A_FIT == 0 {
+                self.refit();
+            }
             let next: Vec<u32> = (0..self.labels.len()).map(|p| self.best_label(p)).collect();
+            if next == self.labels {
+                break;
+            }
             self.labels = next;
         }
         self.refit();
@@ -162,6 +173,10 @@ impl<'a> Growth<'a> {
     fn best_label(&self, pixel: usize) -> u32 {
         if !self.cloud.holds(pixel) {
             return NONE;
+        }
+        let own = self.labels[pixel];
+        if own != NONE && self.cloud.neighbours(pixel).all(|p| self.labels[p] == own) {
+            return own;
         }
         let mut candidates = [NONE; 4];
         let mut count = 0;
@@ -172,11 +187,11 @@ impl<'a> Growth<'a> {
                 count += 1;
             }
         }
-        let own = &self.cloud.points[pixel];
+        let here = &self.cloud.points[pixel];
         candidates[..count]
             .iter()
             .map(|&label| (label, &self.planes[label as usize]))
-            .filter(|(_, plane)| plane.distance(own).abs() <= self.tolerance)
+            .filter(|(_, plane)| plane.distance(here).abs() <= self.tolerance)
             .map(|(label, plane)| (if count == 1 { 0.0 } else { self.smoothed(pixel, plane) }, label))
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
             .map_or(NONE, |(_, label)| label)
@@ -206,12 +221,27 @@ impl<'a> Growth<'a> {
         }
     }
 
+    /// Whether pixels are the frayed border of a larger region rather than a
+    /// face: almost all lie beside it and little off its plane.
+    fn is_sliver(&self, pixels: &[usize], sizes: &[usize]) -> bool {
+        let frayed = |p: usize| {
+            self.cloud.square(p, 2).map(|q| self.labels[q]).any(|label| {
+                label != NONE
+                    && sizes[label as usize] > pixels.len()
+                    && self.planes[label as usize].distance(&self.cloud.points[p]).abs() <= FRAYED * self.tolerance
+            })
+        };
+        pixels.iter().filter(|&&p| frayed(p)).count() as f64 > SLIVER * pixels.len() as f64
+    }
+
     /// Joins the parts of one plane and fits each region once more.
     fn regions(self) -> Vec<Region> {
-        let parts: Vec<Part> = members(&self.labels)
+        let members = members(&self.labels);
+        let sizes: Vec<usize> = members.iter().map(Vec::len).collect();
+        let parts: Vec<Part> = members
             .into_iter()
             .zip(&self.planes)
-            .filter(|(pixels, _)| pixels.len() >= LEAST_PIXELS)
+            .filter(|(pixels, _)| pixels.len() >= LEAST_PIXELS && !self.is_sliver(pixels, &sizes))
             .map(|(pixels, plane)| Part { plane: *plane, pixels })
             .collect();
         let mut regions: Vec<Region> = super::join::coplanar(self.cloud, parts, self.tolerance)
