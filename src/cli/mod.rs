@@ -3,6 +3,7 @@
 mod check;
 mod compile;
 mod files;
+mod plan;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -22,6 +23,7 @@ struct Cli {
 enum Verb {
     Check(check::Check),
     Compile(compile::Compile),
+    Plan(Box<plan::Plan>),
 }
 
 /// How a command ended; the numbers are its exit status.
@@ -31,14 +33,25 @@ pub(crate) enum Outcome {
     Done = 0,
     /// The input is wrong, and diagnostics said where.
     WrongInput = 1,
+    /// A run ended without its goal.
+    GoalMissed = 3,
 }
 
 /// Why a command could not do its work.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     /// A result could not be written.
-    #[error("{0} cannot be written: {1}")]
+    #[error("error[E0601]: {0} cannot be written: {1}")]
     Write(String, io::Error),
+    /// A run log is not of the run that would be continued.
+    #[error("error[E0602]: {0} cannot be resumed: {1}")]
+    Resume(String, String),
+    /// A run could not be made or continued.
+    #[error("error[E0603]: {0}")]
+    Run(String),
+    /// The command was called wrongly.
+    #[error("error: {0}")]
+    Usage(String),
 }
 
 /// Runs the program with its arguments, the program's name first.
@@ -50,14 +63,15 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let outcome = match cli.verb {
         Verb::Check(check) => check::run(&check),
         Verb::Compile(compile) => compile::run(&compile),
+        Verb::Plan(plan) => plan::run(&plan),
     };
     match outcome {
         Ok(outcome) => ExitCode::from(outcome as u8),
         // Whoever read the output has seen enough.
         Err(Failure::Write(_, error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
-            let _ = writeln!(io::stderr(), "error: {failure}");
-            ExitCode::from(1)
+            let _ = writeln!(io::stderr(), "{failure}");
+            ExitCode::from(if matches!(failure, Failure::Usage(_)) { 2 } else { 1 })
         }
     }
 }

@@ -47,7 +47,12 @@ pub struct ClosedLoop<'a, S> {
 impl<'a, S: Sensor> ClosedLoop<'a, S> {
     /// A loop that begins at candidate `start`.
     pub fn new(session: &'a mut Session, sensor: S, start: usize) -> Self {
-        Self { session, sensor, next: Some(start), n: 0 }
+        Self {
+            session,
+            sensor,
+            next: Some(start),
+            n: 0,
+        }
     }
 
     /// The session that it drives.
@@ -62,7 +67,11 @@ impl<'a, S: Sensor> ClosedLoop<'a, S> {
     pub fn step(&mut self, ended: &mut dyn FnMut(Part)) -> Result<Option<Step>, PlanError> {
         let Some(view) = self.next else { return Ok(None) };
         let count = self.session.views().len();
-        let pose = *self.session.views().get(view).ok_or(PlanError::NoSuchView { view, count })?;
+        let pose = *self
+            .session
+            .views()
+            .get(view)
+            .ok_or(PlanError::NoSuchView { view, count })?;
         self.n += 1;
         let observation = self.sensor.measure(self.n, view, &pose);
         ended(Part::Sense);
@@ -74,6 +83,10 @@ impl<'a, S: Sensor> ClosedLoop<'a, S> {
             Decision::Next(next) => Some(next.view),
             Decision::End(_) => None,
         };
-        Ok(Some(Step { observation, update, decision }))
+        Ok(Some(Step {
+            observation,
+            update,
+            decision,
+        }))
     }
 }

@@ -128,7 +128,13 @@ pub fn reachable<W: World + ?Sized>(
 ) -> Vec<bool> {
     let sees = |v: &PredictedVoxel| {
         let faces = |n: &Vector| view.could_detect(&v.centre, n, envelope);
-        let tolerance = || if world.measured_within(&v.centre, near) { near } else { 0.0 };
+        let tolerance = || {
+            if world.measured_within(&v.centre, near) {
+                near
+            } else {
+                0.0
+            }
+        };
         v.normals.iter().any(faces) && world.visible(view.eye(), v.voxel, tolerance())
     };
     voxels.iter().enumerate().map(|(k, v)| wanted(k) && sees(v)).collect()

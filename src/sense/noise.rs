@@ -35,6 +35,16 @@ pub enum UnknownNoise {
     Unknown(String),
 }
 
+impl Noise {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::StructuredLight => "structured_light",
+        }
+    }
+}
+
 impl FromStr for Noise {
     type Err = UnknownNoise;
 

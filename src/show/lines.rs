@@ -12,7 +12,15 @@ const LISTED: usize = 4;
 pub fn view_line(before: Option<&View>, view: &View, target: Option<&str>) -> String {
     let mut line = format!("view {:>2}  #{:<4}", view.n, view.view);
     let found = found_since(before.map(|b| &b.features), &view.features);
-    let _ = write!(line, "{:<34}", if found.is_empty() { "nothing new".to_owned() } else { found.join(", ") });
+    let _ = write!(
+        line,
+        "{:<34}",
+        if found.is_empty() {
+            "nothing new".to_owned()
+        } else {
+            found.join(", ")
+        }
+    );
     let _ = write!(line, "  {:<26}", remaining(&view.classes));
     match &view.next {
         None => line.push_str("  stop"),
@@ -42,7 +50,11 @@ fn found_since(before: Option<&Ordered<Feature>>, now: &Ordered<Feature>) -> Vec
         match feature.state {
             1 if measured(feature) > old_count => {
                 let n = measured(feature);
-                found.push(if n > 1 { format!("+{name} ×{n}") } else { format!("+{name}") });
+                found.push(if n > 1 {
+                    format!("+{name} ×{n}")
+                } else {
+                    format!("+{name}")
+                });
             }
             0 if old_state != 0 => found.push(format!("-{name}")),
             _ => {}
@@ -53,7 +65,12 @@ fn found_since(before: Option<&Ordered<Feature>>, now: &Ordered<Feature>) -> Vec
 
 /// The classes that remain: names where few, a count where many.
 fn remaining(classes: &Ordered<f64>) -> String {
-    let left: Vec<&str> = classes.0.iter().filter(|(_, p)| *p > 0.0).map(|(name, _)| name.as_str()).collect();
+    let left: Vec<&str> = classes
+        .0
+        .iter()
+        .filter(|(_, p)| *p > 0.0)
+        .map(|(name, _)| name.as_str())
+        .collect();
     match left.as_slice() {
         [] => "no class fits".to_owned(),
         [only] => (*only).to_owned(),
@@ -74,7 +91,9 @@ fn shortened(mut names: Vec<String>) -> Vec<String> {
 /// The closing summary.
 pub fn summary(records: &[Record], object: &str) -> String {
     let mut text = String::new();
-    let Some(Record::End(end)) = records.last() else { return text };
+    let Some(Record::End(end)) = records.last() else {
+        return text;
+    };
     let _ = writeln!(text, "{}", verdict(end, object));
     let views: Vec<String> = views(records).map(|v| v.view.to_string()).collect();
     let _ = writeln!(text, "views       {}: {}", end.views, views.join(" → "));
@@ -82,7 +101,12 @@ pub fn summary(records: &[Record], object: &str) -> String {
         let _ = writeln!(text, "coverage    {:.1} % of the observable surface", coverage * 100.0);
     }
     let total = |of: fn(&View) -> f64| self::views(records).map(of).sum::<f64>() / 1000.0;
-    let split = [total(|v| v.ms.sense), total(|v| v.ms.detect), total(|v| v.ms.map), total(|v| v.ms.score)];
+    let split = [
+        total(|v| v.ms.sense),
+        total(|v| v.ms.detect),
+        total(|v| v.ms.map),
+        total(|v| v.ms.score),
+    ];
     let [sense, detect, map, score] = split;
     let sum: f64 = split.iter().sum();
     let _ = writeln!(
@@ -105,14 +129,19 @@ fn verdict(end: &End, object: &str) -> String {
         ("goal", Some(class)) => format!("goal        {object} is of class {class} (p = {:.3})", end.confidence),
         ("goal", None) => format!("goal        no view can show more of {object}"),
         ("contradiction", _) => {
-            let (feature, evidence) =
-                end.contradiction.as_ref().map_or(("?", ""), |c| (c.feature.as_str(), c.evidence.as_str()));
+            let (feature, evidence) = end
+                .contradiction
+                .as_ref()
+                .map_or(("?", ""), |c| (c.feature.as_str(), c.evidence.as_str()));
             format!("contradiction  {object} fits no class of the library\n  {feature}: {evidence}")
         }
         ("exhausted", _) => format!(
             "exhausted   no view can gain anything, and the goal is not reached (likeliest class p = {:.3})",
             end.confidence
         ),
-        (outcome, _) => format!("{outcome}  the limit of views is used up (likeliest class p = {:.3})", end.confidence),
+        (outcome, _) => format!(
+            "{outcome}  the limit of views is used up (likeliest class p = {:.3})",
+            end.confidence
+        ),
     }
 }

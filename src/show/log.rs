@@ -244,7 +244,13 @@ impl View {
             view: update.view,
             pose: LoggedPose::from(&step.observation.world_from_camera),
             points: update.points,
-            features: Ordered(update.features.iter().map(|f| (f.name.clone(), Feature::from(f))).collect()),
+            features: Ordered(
+                update
+                    .features
+                    .iter()
+                    .map(|f| (f.name.clone(), Feature::from(f)))
+                    .collect(),
+            ),
             classes: Ordered(update.classes.clone()),
             voxels: Voxels {
                 unknown: update.voxels.unknown,
@@ -320,7 +326,10 @@ impl From<&plan::Next> for Next {
 impl From<&Pose> for LoggedPose {
     fn from(pose: &Pose) -> Self {
         let (t, q) = (&pose.translation.vector, &pose.rotation);
-        Self { position: [t.x, t.y, t.z], rotation: [q.w, q.i, q.j, q.k] }
+        Self {
+            position: [t.x, t.y, t.z],
+            rotation: [q.w, q.i, q.j, q.k],
+        }
     }
 }
 

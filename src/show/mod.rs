@@ -2,8 +2,9 @@
 //!
 //! Turns updates and decisions into records and text. It writes nothing itself.
 
+mod configuration;
 mod lines;
 pub mod log;
 
-
+pub use configuration::configuration;
 pub use lines::{summary, view_line};

@@ -33,7 +33,10 @@ pub(super) fn check(task: &Task, spans: &TaskSpans, found: &mut Vec<Diagnostic>)
             Diagnostic::new(Code::E0404, spans.voxel, message)
                 .label(format!("at most {MOST_VOXELS:.1e} voxels"))
                 .related(spans.space, "of this space")
-                .help(format!("make the voxel at least {}, or the space smaller", metres(needed * 1.01))),
+                .help(format!(
+                    "make the voxel at least {}, or the space smaller",
+                    metres(needed * 1.01)
+                )),
         );
     }
     true

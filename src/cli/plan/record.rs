@@ -1,0 +1,127 @@
+//! What a run leaves: the log, a line a view, the map.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::cli::{Failure, report};
+use crate::map::{Map, write_bt};
+use crate::plan::{Decision, End, Part, Phase, Step};
+use crate::show::log::{self, Milliseconds, Record};
+use crate::show::view_line;
+
+/// Writes each record as it comes, and shows a line a view.
+pub(super) struct Recorder {
+    log: Option<(File, String)>,
+    records: Vec<Record>,
+    last: Instant,
+    ms: Milliseconds,
+    bar: ProgressBar,
+}
+
+impl Recorder {
+    /// Opens the log and writes its first line.
+    pub fn begin(path: Option<&Path>, start: log::Start) -> Result<Self, Failure> {
+        let log = path.map(create).transpose()?;
+        // Hidden by itself where standard error is no terminal.
+        let bar = ProgressBar::new_spinner().with_style(ProgressStyle::default_spinner());
+        let mut recorder = Self {
+            log,
+            records: Vec::new(),
+            last: Instant::now(),
+            ms: Milliseconds::default(),
+            bar,
+        };
+        recorder.write(Record::Start(start))?;
+        Ok(recorder)
+    }
+
+    /// Everything so far.
+    pub fn records(&self) -> &[Record] {
+        &self.records
+    }
+
+    /// Starts the clock of a view.
+    pub fn begin_view(&mut self) {
+        self.ms = Milliseconds::default();
+        self.last = Instant::now();
+        self.show("measuring");
+    }
+
+    /// A part of the view has ended.
+    pub fn lap(&mut self, part: Part) {
+        let passed = self.last.elapsed().as_secs_f64() * 1000.0;
+        let (sum, next) = match part {
+            Part::Sense => (&mut self.ms.sense, "inserting"),
+            Part::Session(Phase::Map) => (&mut self.ms.map, "detecting"),
+            Part::Session(Phase::Detect) => (&mut self.ms.detect, "scoring views"),
+            Part::Session(Phase::Score) => (&mut self.ms.score, "scoring views"),
+        };
+        *sum += (passed * 1000.0).round() / 1000.0;
+        self.last = Instant::now();
+        self.show(next);
+    }
+
+    /// Records a view.
+    pub fn view(&mut self, step: &Step) -> Result<(), Failure> {
+        let view = log::View::of(step, self.ms);
+        let target = match &step.decision {
+            Decision::Next(next) => next.target.as_ref().map(|t| match t.key.as_str() {
+                key if key.contains('/') => format!("{} at {key}", t.feature),
+                _ => t.feature.clone(),
+            }),
+            Decision::End(_) => None,
+        };
+        let before = self.records.iter().rev().find_map(|r| match r {
+            Record::View(view) => Some(view.as_ref()),
+            _ => None,
+        });
+        let line = view_line(before, &view, target.as_deref());
+        self.bar.suspend(|| report(&format!("{line}\n")))?;
+        self.write(Record::View(Box::new(view)))
+    }
+
+    /// Records the end.
+    pub fn end(&mut self, end: &End, coverage: Option<f64>) -> Result<(), Failure> {
+        self.bar.finish_and_clear();
+        let views = self.records.iter().filter(|r| matches!(r, Record::View(_))).count();
+        self.write(Record::End(log::End::of(end, views as u32, coverage)))
+    }
+
+    /// One write a line, so that an interrupted run leaves whole lines.
+    fn write(&mut self, record: Record) -> Result<(), Failure> {
+        if let Some((file, name)) = &mut self.log {
+            let line = record.to_line() + "\n";
+            file.write_all(line.as_bytes())
+                .map_err(|error| Failure::Write(name.clone(), error))?;
+        }
+        self.records.push(record);
+        Ok(())
+    }
+
+    fn show(&self, doing: &'static str) {
+        let n = self.records.iter().filter(|r| matches!(r, Record::View(_))).count() + 1;
+        self.bar.set_message(format!("view {n}: {doing}"));
+        self.bar.tick();
+    }
+}
+
+/// Writes the map as an OctoMap binary tree.
+pub(super) fn write_map(path: &Path, map: &Map) -> Result<(), Failure> {
+    let (file, name) = create(path)?;
+    let mut out = BufWriter::new(file);
+    write_bt(map, &mut out)
+        .and_then(|()| out.flush())
+        .map_err(|error| Failure::Write(name, error))
+}
+
+fn create(path: &Path) -> Result<(File, String), Failure> {
+    let name = format!("`{}`", path.display());
+    match File::create(path) {
+        Ok(file) => Ok((file, name)),
+        Err(error) => Err(Failure::Write(name, error)),
+    }
+}
