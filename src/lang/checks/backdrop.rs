@@ -28,8 +28,14 @@ pub(super) fn check(scene: &Scene, span: Span, tasks: &[Analysed<'_>]) -> Vec<Di
             let message = format!("this backdrop does not enclose the views of task `{}`", task.task.name);
             Diagnostic::new(Code::E0501, span, message)
                 .severity(severity)
-                .related(task.spans.views, format!("as far as {} from the centre", metres(farthest)))
-                .help(format!("give it a radius above {}, or write `backdrop none`", metres(farthest)))
+                .related(
+                    task.spans.views,
+                    format!("as far as {} from the centre", metres(farthest)),
+                )
+                .help(format!(
+                    "give it a radius above {}, or write `backdrop none`",
+                    metres(farthest)
+                ))
         })
         .collect()
 }
@@ -37,7 +43,10 @@ pub(super) fn check(scene: &Scene, span: Span, tasks: &[Analysed<'_>]) -> Vec<Di
 /// Distance of the farthest view from the centre of the space, metres.
 fn farthest(task: &Analysed<'_>) -> Option<f64> {
     let centre = task.task.space.centre;
-    task.views.iter().map(|v| (eye(v) - centre).norm()).max_by(f64::total_cmp)
+    task.views
+        .iter()
+        .map(|v| (eye(v) - centre).norm())
+        .max_by(f64::total_cmp)
 }
 
 #[cfg(test)]
@@ -48,9 +57,13 @@ mod tests {
     #[test]
     fn fires_on_a_backdrop_in_front_of_the_views() {
         assert_eq!(codes(&[("sphere(radius: 2 m", "sphere(radius: 1 m")]), [Code::E0501]);
-        assert_eq!(codes(&[("radius: 1.5 m", "radius: 2.5 m"), ("backdrop sphere(radius: 2 m, colour: grey)", "")]), [
-            Code::E0501
-        ]);
+        assert_eq!(
+            codes(&[
+                ("radius: 1.5 m", "radius: 2.5 m"),
+                ("backdrop sphere(radius: 2 m, colour: grey)", "")
+            ]),
+            [Code::E0501]
+        );
     }
 
     #[test]

@@ -17,8 +17,12 @@ pub(super) fn check(library: &Library) -> Vec<Diagnostic> {
         }
         if !library.rules.iter().any(|r| r.consequent == id) {
             found.push(
-                Diagnostic::new(Code::W0404, feature.place, format!("no rule can detect `{}`", feature.name))
-                    .help(format!("add `rule -> {} {{ … }}`", feature.name)),
+                Diagnostic::new(
+                    Code::W0404,
+                    feature.place,
+                    format!("no rule can detect `{}`", feature.name),
+                )
+                .help(format!("add `rule -> {} {{ … }}`", feature.name)),
             );
         }
     }
@@ -49,7 +53,10 @@ mod tests {
     use super::super::testing::codes;
     use crate::lang::Code;
 
-    const THIRD: (&str, &str) = ("feature right : marker", "feature right : marker\n feature third : marker");
+    const THIRD: (&str, &str) = (
+        "feature right : marker",
+        "feature right : marker\n feature third : marker",
+    );
 
     #[test]
     fn fires_on_a_feature_of_no_class_and_of_no_rule() {
@@ -59,13 +66,20 @@ mod tests {
     #[test]
     fn keeps_quiet_about_a_feature_that_is_used() {
         let rule = "rule -> third {\n detect qr(\"t\", 200 mm)\n measure marker_pose()\n}\n layout flat";
-        let used = [THIRD, ("class other { right }", "class other { right, third }"), ("layout flat", rule)];
+        let used = [
+            THIRD,
+            ("class other { right }", "class other { right, third }"),
+            ("layout flat", rule),
+        ];
         assert_eq!(codes(&used), []);
     }
 
     #[test]
     fn notes_what_every_class_has_where_classes_are_told_apart() {
-        let common = [("class other { right }", "class other { left, right }"), ("class both { left, right }", "")];
+        let common = [
+            ("class other { right }", "class other { left, right }"),
+            ("class both { left, right }", ""),
+        ];
         let common = [common[0], common[1], ("as both", "as one")];
         assert_eq!(codes(&common), [Code::W0403]);
         let told = [common[0], common[1], common[2], ("goal confident", "goal exhausted")];

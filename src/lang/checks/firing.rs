@@ -37,19 +37,30 @@ mod tests {
     const RULE: &str = "rule left, right -> third {\n detect qr(\"t\", 200 mm)\n measure marker_pose()\n
         predict rigid_marker(left.pose, right.pose, size: 200 mm)\n}\n layout flat";
     const THIRD: [(&str, &str); 2] = [
-        ("feature right : marker", "feature right : marker\n feature third : marker"),
+        (
+            "feature right : marker",
+            "feature right : marker\n feature third : marker",
+        ),
         ("layout flat", RULE),
     ];
 
     #[test]
     fn fires_where_antecedents_never_meet() {
-        let apart = [THIRD[0], THIRD[1], ("class both { left, right }", "class both { left, third }")];
+        let apart = [
+            THIRD[0],
+            THIRD[1],
+            ("class both { left, right }", "class both { left, third }"),
+        ];
         assert_eq!(codes(&apart), [Code::W0405]);
     }
 
     #[test]
     fn keeps_quiet_where_they_do() {
-        let together = [THIRD[0], THIRD[1], ("class both { left, right }", "class both { left, right, third }")];
+        let together = [
+            THIRD[0],
+            THIRD[1],
+            ("class both { left, right }", "class both { left, right, third }"),
+        ];
         assert_eq!(codes(&together), []);
     }
 }

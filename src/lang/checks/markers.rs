@@ -58,7 +58,11 @@ fn resolution(task: &Analysed<'_>, rule: &Rule, name: &str) -> Option<Diagnostic
 fn voxel(task: &Analysed<'_>, rule: &Rule, name: &str) -> Option<Diagnostic> {
     let (size, voxel) = (rule.detect.length("size").ok()?, task.task.space.voxel);
     (size < voxel).then(|| {
-        let message = format!("`{name}` is {} wide, less than a voxel of {}", metres(size), metres(voxel));
+        let message = format!(
+            "`{name}` is {} wide, less than a voxel of {}",
+            metres(size),
+            metres(voxel)
+        );
         Diagnostic::new(Code::W0407, rule.place, message).related(task.spans.voxel, "the voxel")
     })
 }

@@ -35,9 +35,18 @@ pub(super) fn check(lowered: &Lowered) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     let whole = |name: &str| {
         let libraries = lowered.rules.libraries.iter().zip(&lowered.whole);
-        libraries.filter(|(l, whole)| l.name == name && **whole).map(|(l, _)| l).next()
+        libraries
+            .filter(|(l, whole)| l.name == name && **whole)
+            .map(|(l, _)| l)
+            .next()
     };
-    for (library, _) in lowered.rules.libraries.iter().zip(&lowered.whole).filter(|(_, whole)| **whole) {
+    for (library, _) in lowered
+        .rules
+        .libraries
+        .iter()
+        .zip(&lowered.whole)
+        .filter(|(_, whole)| **whole)
+    {
         found.extend(features::check(library));
         found.extend(firing::check(library));
         found.extend(starts::check(library));

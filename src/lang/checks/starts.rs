@@ -47,7 +47,10 @@ mod tests {
 
     #[test]
     fn fires_on_a_circle_and_not_on_a_chain() {
-        let add = ("feature right : marker", "feature right : marker\n feature a : marker\n feature b : marker");
+        let add = (
+            "feature right : marker",
+            "feature right : marker\n feature a : marker\n feature b : marker",
+        );
         let class = ("class both { left, right }", "class both { left, right, a, b }");
         let rule = |from: &str, to: &str| {
             format!(

@@ -47,7 +47,12 @@ fn shares(task: &Analysed<'_>, found: &mut Vec<Diagnostic>) {
         }
     }
     if !(0.0..=1.0).contains(&task.task.overlap) {
-        found.push(out_of_range(Code::E0309, "overlap", task.spans.overlap, "between 0 % and 100 %"));
+        found.push(out_of_range(
+            Code::E0309,
+            "overlap",
+            task.spans.overlap,
+            "between 0 % and 100 %",
+        ));
     }
 }
 
@@ -57,9 +62,21 @@ fn sensor_model(task: &Analysed<'_>, found: &mut Vec<Diagnostic>) {
     for (name, right, expected) in [
         ("hit", inside(m.hit, 0.5, 1.0), "between 50 % and 100 %, both excluded"),
         ("miss", inside(m.miss, 0.0, 0.5), "between 0 % and 50 %, both excluded"),
-        ("clamp_min", inside(m.clamp_min, 0.0, m.occupied), "above 0 % and below `occupied`"),
-        ("clamp_max", inside(m.clamp_max, m.occupied, 1.0), "above `occupied` and below 100 %"),
-        ("occupied", inside(m.occupied, 0.0, 1.0), "between 0 % and 100 %, both excluded"),
+        (
+            "clamp_min",
+            inside(m.clamp_min, 0.0, m.occupied),
+            "above 0 % and below `occupied`",
+        ),
+        (
+            "clamp_max",
+            inside(m.clamp_max, m.occupied, 1.0),
+            "above `occupied` and below 100 %",
+        ),
+        (
+            "occupied",
+            inside(m.occupied, 0.0, 1.0),
+            "between 0 % and 100 %, both excluded",
+        ),
     ] {
         if !right {
             let span = task.spans.sensor_model.get(name).copied().unwrap_or(task.spans.head);
@@ -89,7 +106,10 @@ mod tests {
         assert_eq!(codes(&[("absent: 95 %", "absent: 0 %")]), [Code::E0402]);
         assert_eq!(codes(&[("confidence: 99 %", "confidence: 101 %")]), [Code::E0402]);
         assert_eq!(codes(&[("confidence: 99 %", "confidence: 100 %")]), []);
-        assert_eq!(codes(&[("limit 20 views", "limit 20 views\n overlap 101 %")]), [Code::E0309]);
+        assert_eq!(
+            codes(&[("limit 20 views", "limit 20 views\n overlap 101 %")]),
+            [Code::E0309]
+        );
         assert_eq!(codes(&[("limit 20 views", "limit 0 views")]), [Code::E0309]);
     }
 

@@ -10,11 +10,21 @@ pub(super) fn check(task: &Analysed<'_>) -> Vec<Diagnostic> {
     let Some(library) = task.library.filter(|_| task.task.goal.confident) else {
         return Vec::new();
     };
-    let detectable = reach::detectable(library);
+    let mut detectable = reach::detectable(library);
+    if !detectable.contains(&true) {
+        // Nothing can be detected at all, which is said elsewhere.
+        detectable.fill(true);
+    }
     let mut first: BTreeMap<Vec<bool>, &Class> = BTreeMap::new();
     let mut found = Vec::new();
     for class in &library.classes {
-        let seen = class.presence.0.iter().zip(&detectable).map(|(p, d)| *p && *d).collect();
+        let seen = class
+            .presence
+            .0
+            .iter()
+            .zip(&detectable)
+            .map(|(p, d)| *p && *d)
+            .collect();
         match first.get(&seen) {
             Some(twin) => found.push(report(class, twin, library, task)),
             None => drop(first.insert(seen, class)),
@@ -65,8 +75,14 @@ mod tests {
     #[test]
     fn fires_where_the_difference_cannot_be_detected() {
         let hidden = [
-            ("feature right : marker", "feature right : marker\n feature dark : marker"),
-            ("class other { right }", "class other { right }\n class shady { right, dark }"),
+            (
+                "feature right : marker",
+                "feature right : marker\n feature dark : marker",
+            ),
+            (
+                "class other { right }",
+                "class other { right }\n class shady { right, dark }",
+            ),
         ];
         assert_eq!(codes(&hidden), [Code::W0404, Code::E0401]);
     }

@@ -89,7 +89,10 @@ mod tests {
 
     #[test]
     fn fires_on_views_that_read_nothing() {
-        let far = [("radius: 1.5 m", "radius: 7 m"), ("sphere(radius: 2 m", "sphere(radius: 9 m")];
+        let far = [
+            ("radius: 1.5 m", "radius: 7 m"),
+            ("sphere(radius: 2 m", "sphere(radius: 9 m"),
+        ];
         assert!(codes(&far).contains(&Code::E0403));
         let listed = "views positions([[1.5 m, 0 m, 0.5 m], [1.5 m, 9 m, 0.5 m]])";
         let some = [

@@ -5,8 +5,8 @@ use pest::iterators::{Pair, Pairs};
 use super::expressions::{expr, integer, name, quoted, reference};
 use super::tree::{
     Class, ClassTable, Feature, FeatureRef, Field, File, ForEach, Index, Item, Layout, LayoutPlace, Let, Library,
-    Marked, Module, Name, Object, Parameter, Row, Rule as RuleItem, Scene, Statement, Task, TaskStatement,
-    TaskStatementKind, TypeName, Use,
+    Marked, Module, Name, Object, Parameter, Row, Rule as RuleItem, Scene, SpaceStatement, Statement, Task,
+    TaskStatement, TaskStatementKind, TypeName, Use,
 };
 use super::{Rule, recover, span};
 use crate::lang::diagnostics::{Code, Diagnostic};
@@ -459,11 +459,11 @@ impl Builder<'_> {
             Rule::library_of => Kind::Library(name(self.file, &parts.next()?)),
             Rule::goal => Kind::Goal(parts.map(|p| name(self.file, &p)).collect()),
             Rule::camera => Kind::Camera(expr(self, parts.next()?)),
-            Rule::space => Kind::Space {
+            Rule::space => Kind::Space(Box::new(SpaceStatement {
                 shape: expr(self, parts.next()?),
                 at: expr(self, parts.next()?),
                 voxel: expr(self, parts.next()?),
-            },
+            })),
             Rule::views => Kind::Views(expr(self, parts.next()?)),
             Rule::thresholds => Kind::Thresholds(self.fields(parts.next()?)),
             Rule::limit => Kind::Limit(expr(self, parts.next()?)),

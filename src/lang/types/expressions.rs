@@ -310,9 +310,9 @@ impl Checker<'_> {
             Code::E0301,
             found.span,
             format!(
-                "{} is {}, and this is {}",
-                due.what,
+                "expected {} for {}, found {}",
                 units::describe(due.ty),
+                due.what,
                 units::describe(found.ty)
             ),
         )
@@ -403,8 +403,6 @@ fn cannot_combine(op: Operator, left: &Expr, right: &Expr, span: Span) -> Diagno
             op.symbol()
         ),
     )
-    .related(left.span, units::describe(left.ty))
-    .related(right.span, units::describe(right.ty))
     .help(help)
 }
 
