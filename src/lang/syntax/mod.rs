@@ -10,7 +10,9 @@ mod build;
 mod expected;
 mod expressions;
 mod guard;
+mod libraries;
 mod recover;
+mod tasks;
 pub mod tree;
 
 use std::num::NonZeroUsize;
