@@ -79,7 +79,7 @@ pub(in crate::lang) fn foreign(word: &str) -> Option<&'static str> {
 /// candidate that sorts first.
 pub(in crate::lang) fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let foreign = foreign(word);
-    let most = word.chars().count().div_ceil(3).min(4);
+    let most = (word.chars().count() / 3).clamp(1, 4);
     candidates
         .into_iter()
         .filter(|c| *c != word)

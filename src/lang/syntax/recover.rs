@@ -104,6 +104,10 @@ fn advice(found: &str, expected: &[String]) -> Option<String> {
         "'" => Some("a text stands in double quotes".into()),
         "#" => Some("a comment begins with `//`".into()),
         "/*" => Some("a comment begins with `//` and ends with its line".into()),
+        "feature" | "class" | "classes" | "rule" | "layout" if has("`library`") => {
+            Some(format!("`{found}` belongs inside the braces of a `library`"))
+        }
+        _ if has("`0` or `1`") => Some("a row is a name and its cells, 0 or 1, with spaces between".into()),
         _ if suggest::RESERVED.contains(&found) => Some(format!(
             "`{found}` begins a declaration: it is reserved, and stands neither here nor as a name"
         )),
