@@ -4,8 +4,8 @@ use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::lower::TaskSpans;
 use crate::rules::Task;
 
-/// Most voxels of a map.
-const MOST_VOXELS: f64 = 4_294_967_296.0;
+/// Most voxels of a map, whose indices are 32 bits wide.
+const MOST_VOXELS: f64 = 4_294_967_295.0;
 
 /// Checks the space; whether views about it can be looked at.
 pub(super) fn check(task: &Task, spans: &TaskSpans, found: &mut Vec<Diagnostic>) -> bool {
@@ -26,7 +26,7 @@ pub(super) fn check(task: &Task, spans: &TaskSpans, found: &mut Vec<Diagnostic>)
         return true;
     }
     let voxels: f64 = space.size.iter().map(|side| (side / space.voxel).ceil()).product();
-    if voxels > MOST_VOXELS {
+    if voxels >= MOST_VOXELS {
         let needed = (space.size.product() / MOST_VOXELS).cbrt();
         let message = format!("a map of {voxels:.1e} voxels does not fit in memory");
         found.push(

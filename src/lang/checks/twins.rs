@@ -10,7 +10,11 @@ pub(super) fn check(task: &Analysed<'_>) -> Vec<Diagnostic> {
     let Some(library) = task.library.filter(|_| task.task.goal.confident) else {
         return Vec::new();
     };
-    let detectable = reach::detectable(library);
+    let mut detectable = reach::detectable(library);
+    if !detectable.contains(&true) {
+        // Nothing can be detected at all, which is said elsewhere.
+        detectable.fill(true);
+    }
     let mut first: BTreeMap<Vec<bool>, &Class> = BTreeMap::new();
     let mut found = Vec::new();
     for class in &library.classes {

@@ -117,7 +117,7 @@ impl<'a> Lowering<'a> {
                 right = false;
                 continue;
             };
-            if let Err(found) = ranges::check(primitive, name, &value) {
+            if let Some(found) = ranges::check(primitive, name, &value) {
                 self.report(found);
                 right = false;
             }
@@ -127,7 +127,7 @@ impl<'a> Lowering<'a> {
             primitive: primitive.name.to_owned(),
             arguments: out,
         };
-        if right && let Err(found) = ranges::check_call(primitive, &call, env.call.unwrap_or(span)) {
+        if right && let Some(found) = ranges::check_call(primitive, &call, env.call.unwrap_or(span)) {
             self.report(found);
             right = false;
         }

@@ -11,7 +11,8 @@ use crate::rules::{Call, Expr, FeatureId, Library, Rule, Value};
 
 impl<'a> Lowering<'a> {
     /// Adds a rule for every ordered pair of places, in the order of the features.
-    pub(super) fn layout(&mut self, layout: &'a typed::Layout, out: &mut Library) {
+    /// Says which definite rules are missing where the library is `whole` otherwise.
+    pub(super) fn layout(&mut self, layout: &'a typed::Layout, out: &mut Library, whole: bool) {
         let n = layout.places.len();
         if n.saturating_mul(n) + out.rules.len() > MOST_RULES {
             self.too_far::<()>(layout.span);
@@ -22,7 +23,7 @@ impl<'a> Lowering<'a> {
             return;
         };
         places.sort_by_key(|(feature, _)| *feature);
-        let definite = self.definite_rules(layout, out);
+        let definite = self.definite_rules(layout, out, whole);
         for (a, frame_from_a) in &places {
             for (b, frame_from_b) in places.iter().filter(|(b, _)| a != b) {
                 let Some(rule) = definite.get(b) else { continue };
@@ -51,7 +52,7 @@ impl<'a> Lowering<'a> {
     }
 
     /// The definite rule of each placed feature, whose detection the pairs repeat.
-    fn definite_rules(&mut self, layout: &typed::Layout, library: &Library) -> BTreeMap<FeatureId, Rule> {
+    fn definite_rules(&mut self, layout: &typed::Layout, library: &Library, whole: bool) -> BTreeMap<FeatureId, Rule> {
         let mut out = BTreeMap::new();
         for place in &layout.places {
             let definite = library
@@ -60,6 +61,7 @@ impl<'a> Lowering<'a> {
                 .find(|r| r.antecedents.is_empty() && r.consequent == place.feature);
             match definite {
                 Some(rule) => drop(out.insert(place.feature, rule.clone())),
+                None if !whole => {}
                 None => {
                     let name = &library.feature(place.feature).name;
                     let message = format!("no rule says how `{name}` is detected by itself");

@@ -15,6 +15,7 @@ pub(super) const MOST_RULES: usize = 100_000;
 
 impl<'a> Lowering<'a> {
     pub(super) fn library(&mut self, library: &'a typed::Library) -> Library {
+        let before = self.found.len();
         let mut out = Library {
             name: library.name.clone(),
             features: library.features.iter().map(|f| self.feature(f)).collect(),
@@ -25,8 +26,10 @@ impl<'a> Lowering<'a> {
         for rule in &library.rules {
             self.rule(rule, library, &mut out);
         }
+        // A rule that is wrong is not missing, too.
+        let whole = library.whole && self.found.len() == before;
         for layout in &library.layouts {
-            self.layout(layout, &mut out);
+            self.layout(layout, &mut out, whole);
         }
         out
     }
@@ -76,7 +79,10 @@ impl<'a> Lowering<'a> {
     fn priors_sum_to_one(&mut self, priors: &mut [f64], span: Span) {
         let sum: f64 = priors.iter().sum();
         if (sum - 1.0).abs() > 1e-6 {
-            let message = format!("the priors of the classes sum to {:.4} %, not to 100 %", sum * 100.0);
+            let message = format!(
+                "the priors of the classes sum to {} %, not to 100 %",
+                (sum * 1e6).round() / 1e4
+            );
             self.report(Diagnostic::new(Code::E0311, span, message));
             return;
         }

@@ -53,10 +53,11 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         task_spans: Vec::new(),
         backdrop_spans: Vec::new(),
     };
+    let mut libraries = Vec::new();
     for library in &typed.libraries {
         let before = lowering.found.len();
-        out.rules.libraries.push(lowering.library(library));
-        out.whole.push(library.whole && lowering.found.len() == before);
+        let lowered = lowering.library(library);
+        libraries.push((lowered, library.whole && lowering.found.len() == before));
     }
     for task in &typed.tasks {
         if let Some((task, spans)) = lowering.task(task) {
@@ -65,10 +66,11 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         }
     }
     for scene in &typed.scenes {
-        let lowered = lowering.scene(scene, &out.rules.libraries);
+        let lowered = lowering.scene(scene, &libraries);
         out.rules.scenes.push(lowered);
         out.backdrop_spans.push(scene.backdrop_span);
     }
+    (out.rules.libraries, out.whole) = libraries.into_iter().unzip();
     (out, lowering.found)
 }
 

@@ -1,5 +1,7 @@
 //! Ranges of the constants that primitives take.
 
+use std::f64::consts::{FRAC_PI_2, TAU};
+
 use super::expand::Expanded;
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::Span;
@@ -11,27 +13,21 @@ const MOST_METRES: f64 = 1e5;
 /// Most views of a task.
 const MOST_VIEWS: u64 = primitives::MOST_VIEWS;
 
-/// Whether a constant argument is in range.
-pub(super) fn check(primitive: &Primitive, name: &str, given: &Expanded) -> Result<(), Diagnostic> {
+/// What is wrong with a constant argument.
+pub(super) fn check(primitive: &Primitive, name: &str, given: &Expanded) -> Option<Diagnostic> {
     match &given.expr {
-        Expr::List(items) => items.iter().try_for_each(|item| one(primitive, name, item, given.span)),
+        Expr::List(items) => items.iter().find_map(|item| one(primitive, name, item, given.span)),
         expr => one(primitive, name, expr, given.span),
     }
 }
 
-fn one(primitive: &Primitive, name: &str, expr: &Expr, span: Span) -> Result<(), Diagnostic> {
+fn one(primitive: &Primitive, name: &str, expr: &Expr, span: Span) -> Option<Diagnostic> {
     let Expr::Value(value) = expr else {
-        return Ok(());
+        return None;
     };
-    let Some(expected) = out_of_range(primitive, name, value) else {
-        return Ok(());
-    };
-    let callee = primitive.name;
-    Err(
-        Diagnostic::new(Code::E0309, span, format!("`{name}` of `{callee}` is out of range"))
-            .label(format!("must be {expected}"))
-            .help(format!("`{name}` is {expected}")),
-    )
+    let expected = out_of_range(primitive, name, value)?;
+    let message = format!("`{name}` of `{}` is out of range", primitive.name);
+    Some(Diagnostic::new(Code::E0309, span, message).help(format!("`{name}` is {expected}")))
 }
 
 /// What a constant should be, where it is not.
@@ -40,11 +36,11 @@ fn out_of_range(primitive: &Primitive, name: &str, value: &Value) -> Option<Stri
     match (primitive.name, name, value) {
         ("behind", "depth", Value::Length(x)) => right(x.abs() <= MOST_METRES, "at most 100 km"),
         (_, _, Value::Length(x)) => right(0.0 < *x && *x <= MOST_METRES, "above 0 m and at most 100 km"),
-        (_, "dihedral", Value::Angle(a)) => {
-            right(0.0 < *a && *a < std::f64::consts::TAU, "above 0 deg and below 360 deg")
+        (_, "dihedral", Value::Angle(a)) => right(0.0 < *a && *a < TAU, "above 0 deg and below 360 deg"),
+        (_, "within", Value::Angle(a)) => right(0.0 < *a && *a <= FRAC_PI_2, "above 0 deg and at most 90 deg"),
+        (_, "elevation" | "lean" | "taper", Value::Angle(a)) => {
+            right(a.abs() < FRAC_PI_2, "between -90 deg and 90 deg")
         }
-        (_, "within", Value::Angle(a)) => right(0.0 < *a && *a <= 1.6, "above 0 deg and at most 90 deg"),
-        (_, "elevation" | "lean" | "taper", Value::Angle(a)) => right(a.abs() < 1.5707, "between -90 deg and 90 deg"),
         (_, _, Value::Share(s)) => right((0.0..=1.0).contains(s), "between 0 % and 100 %"),
         (_, "stretch", Value::Number(x)) => right(0.01 <= *x && *x <= 100.0, "between 0.01 and 100"),
         (_, "sides", Value::Count(n)) => right((3..=12).contains(n), "between 3 and 12"),
@@ -58,58 +54,47 @@ fn out_of_range(primitive: &Primitive, name: &str, value: &Value) -> Option<Stri
     }
 }
 
-/// Whether the arguments of a call fit each other.
-pub(super) fn check_call(primitive: &Primitive, call: &Call, span: Span) -> Result<(), Diagnostic> {
-    let wrong = |why: String| Err(Diagnostic::new(Code::E0309, span, why));
-    if primitive.result == Type::Camera
-        && let Err(error) = primitives::camera(call)
-    {
-        return wrong(error.to_string());
-    }
-    let length = |name| call.length(name).ok();
-    match primitive.name {
-        "box_grid" => {
-            let (Ok(size), Some(step)) = (call.lengths("size"), length("step")) else {
-                return Ok(());
-            };
-            if size.len() != 3 {
-                return wrong(format!(
-                    "`size` of a box has three lengths, and here are {}",
-                    size.len()
-                ));
-            }
-            let cells = |x: f64| (x / step).ceil().max(1.0);
-            let views = 2.0 * (cells(size[0]) + cells(size[1])) * cells(size[2]) + cells(size[0]) * cells(size[1]);
-            if views > MOST_VIEWS as f64 {
-                return wrong(format!(
-                    "this grid has {views:.0} views, at most {MOST_VIEWS} are planned with"
-                ));
-            }
-            Ok(())
+/// What is wrong with the arguments of a call together.
+pub(super) fn check_call(primitive: &Primitive, call: &Call, span: Span) -> Option<Diagnostic> {
+    let wrong = match (primitive.result, primitive.name) {
+        (Type::Camera, _) => primitives::camera(call).err().map(|error| error.to_string()),
+        (_, "box_grid") => box_grid(call),
+        (_, "positions") => positions(call),
+        _ => sides_exist(call),
+    }?;
+    Some(Diagnostic::new(Code::E0309, span, wrong))
+}
+
+fn box_grid(call: &Call) -> Option<String> {
+    let (size, step) = (call.lengths("size").ok()?, call.length("step").ok()?);
+    let &[x, y, z] = size.as_slice() else {
+        return Some(format!(
+            "`size` of a box has three lengths, and here are {}",
+            size.len()
+        ));
+    };
+    let cells = |x: f64| (x / step).ceil().max(1.0);
+    let views = 2.0 * (cells(x) + cells(y)) * cells(z) + cells(x) * cells(y);
+    (views > MOST_VIEWS as f64).then(|| format!("this grid has {views:.0} views, and a task has at most {MOST_VIEWS}"))
+}
+
+fn positions(call: &Call) -> Option<String> {
+    match call.arguments.get("points") {
+        Some(Expr::List(points)) if points.is_empty() => Some("there are no positions".into()),
+        Some(Expr::List(points)) if points.len() as u64 > MOST_VIEWS => {
+            Some(format!("more than {MOST_VIEWS} positions"))
         }
-        "positions" => match call.arguments.get("points") {
-            Some(Expr::List(points)) if points.is_empty() => wrong("there are no positions".into()),
-            Some(Expr::List(points)) if points.len() as u64 > MOST_VIEWS => {
-                wrong(format!("more than {MOST_VIEWS} positions"))
-            }
-            _ => Ok(()),
-        },
-        _ => sides_exist(call, span),
+        _ => None,
     }
 }
 
 /// A deformation of side 7 needs a shape with seven sides.
-fn sides_exist(call: &Call, span: Span) -> Result<(), Diagnostic> {
-    let (Ok(sides), Ok(deformations)) = (call.count("sides"), call.calls("deformed")) else {
-        return Ok(());
-    };
-    for deformation in deformations {
-        if let Ok(side) = deformation.count("side")
-            && side > sides
-        {
-            let message = format!("a {} of side {side}, and the shape has {sides}", deformation.primitive);
-            return Err(Diagnostic::new(Code::E0309, span, message).help("sides are numbered from 1; 0 is the bottom"));
-        }
-    }
-    Ok(())
+fn sides_exist(call: &Call) -> Option<String> {
+    let (sides, deformations) = (call.count("sides").ok()?, call.calls("deformed").ok()?);
+    deformations.iter().find_map(|deformation| {
+        let side = deformation.count("side").ok()?;
+        let kind = &deformation.primitive;
+        (side > sides)
+            .then(|| format!("a {kind} of side {side}, and the shape has sides 1 to {sides}, its bottom is 0"))
+    })
 }

@@ -8,7 +8,7 @@ use crate::lang::types::typed;
 use crate::rules::{Backdrop, Library, Marker, Scene, SceneObject, Value};
 
 impl<'a> Lowering<'a> {
-    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[Library]) -> Scene {
+    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[(Library, bool)]) -> Scene {
         Scene {
             name: scene.name.clone(),
             backdrop: scene.backdrop.as_ref().and_then(|b| self.backdrop(b)),
@@ -25,7 +25,7 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    fn object(&mut self, object: &'a typed::Object, libraries: &[Library]) -> Option<SceneObject> {
+    fn object(&mut self, object: &'a typed::Object, libraries: &[(Library, bool)]) -> Option<SceneObject> {
         let shape = self.primitive(&object.shape, &Env::default());
         let at = self.value(&object.at);
         let yaw = object.turned.as_ref().map(|t| self.value(t));
@@ -45,10 +45,11 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    /// A print for every marker that the class has, where the layout puts it.
-    fn markers(&mut self, marked: &'a typed::Marked, libraries: &[Library]) -> Option<Vec<Marker>> {
+    /// A print for every marker that the class has, where the layout puts it. What a
+    /// library lacks is said where that library is whole otherwise.
+    fn markers(&mut self, marked: &'a typed::Marked, libraries: &[(Library, bool)]) -> Option<Vec<Marker>> {
         let typed = &self.typed.libraries[marked.library];
-        let library = libraries.get(marked.library)?;
+        let (library, whole) = libraries.get(marked.library)?;
         let class = library.classes.get(marked.class)?;
         let layout = typed.layouts.get(marked.layout)?;
         let mut out = Vec::new();
@@ -63,6 +64,9 @@ impl<'a> Lowering<'a> {
                 .filter(|r| r.consequent == place.feature)
                 .find_map(|r| Some((r.detect.text("text").ok()?, r.detect.length("size").ok()?)));
             let Some((text, size)) = print else {
+                if !whole {
+                    return None;
+                }
                 let name = &library.feature(place.feature).name;
                 let message = format!("no rule says what is printed on `{name}`");
                 let help = "detect it with `qr(text: …, size: …)`";

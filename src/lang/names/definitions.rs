@@ -89,7 +89,10 @@ fn import(
         }
         for name in &import.names {
             if let Some(first) = places.get(&name.text) {
-                found.push(declared_twice("definition", name, *first));
+                // Of an import that failed, one report is enough.
+                if target.is_some() {
+                    found.push(declared_twice("definition", name, *first));
+                }
                 continue;
             }
             let id = target.and_then(|t| own[t].get(&name.text)).map(|(id, _)| *id);

@@ -251,7 +251,8 @@ fn edition(tree: &tree::File, start: Span, text: &str) -> Option<Diagnostic> {
         ),
         _ => Some(
             Diagnostic::new(Code::E0102, edition.span, "the edition line names no edition")
-                .help(format!("write `vpl {EDITION}`")),
+                .help(format!("write `vpl {EDITION}`"))
+                .fix(format!("write `{EDITION}`"), edition.span, EDITION.to_string()),
         ),
     }
 }

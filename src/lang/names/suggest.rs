@@ -79,7 +79,7 @@ pub(in crate::lang) fn foreign(word: &str) -> Option<&'static str> {
 /// candidate that sorts first.
 pub(in crate::lang) fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let foreign = foreign(word);
-    let most = word.chars().count().div_ceil(3).min(4);
+    let most = (word.chars().count() / 3).clamp(1, 4);
     candidates
         .into_iter()
         .filter(|c| *c != word)
@@ -99,7 +99,7 @@ pub(in crate::lang) fn did_you_mean<'a>(word: &str, candidates: impl IntoIterato
 
 /// `a, b or c` in backticks, cut short where it is long.
 pub(in crate::lang) fn one_of<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
-    const MOST: usize = 12;
+    const MOST: usize = 14;
     let words: Vec<String> = words.into_iter().map(|w| format!("`{w}`")).collect();
     match words.as_slice() {
         [] => "nothing".into(),

@@ -1,13 +1,10 @@
-//! From the parser's pairs to the tree: files, items and their members.
+//! From the parser's pairs to the tree: files, imports and definitions, and what all
+//! members share.
 
 use pest::iterators::{Pair, Pairs};
 
-use super::expressions::{expr, integer, name, quoted, reference};
-use super::tree::{
-    Class, ClassTable, Feature, FeatureRef, Field, File, ForEach, Index, Item, Layout, LayoutPlace, Let, Library,
-    Marked, Module, Name, Object, Parameter, Row, Rule as RuleItem, Scene, Statement, Task, TaskStatement,
-    TaskStatementKind, TypeName, Use,
-};
+use super::expressions::{expr, name, quoted};
+use super::tree::{File, Item, Let, Module, Name, Parameter, Statement, TypeName, Use};
 use super::{Rule, recover, span};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::{FileId, Span};
@@ -20,7 +17,7 @@ pub(super) struct Builder<'a> {
     pub(super) file: FileId,
     text: &'a str,
     pub(super) found: Vec<Diagnostic>,
-    bad: Vec<Span>,
+    pub(super) bad: Vec<Span>,
     comments: Vec<Span>,
 }
 
@@ -91,7 +88,7 @@ impl Builder<'_> {
     }
 
     /// Remembers a region that could not be read, and says why.
-    fn bad(&mut self, pair: &Pair<'_, Rule>) {
+    pub(super) fn bad(&mut self, pair: &Pair<'_, Rule>) {
         let region = self.span(pair);
         self.bad.push(region);
         if self.bad.len() <= MOST_EXPLAINED {
@@ -215,168 +212,7 @@ impl Builder<'_> {
         })
     }
 
-    fn library(&mut self, pair: Pair<'_, Rule>) -> Option<Library> {
-        let doc = self.doc(&pair);
-        let start = self.span(&pair);
-        let known = self.bad.len();
-        let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
-        let mut library = Library {
-            head: start_to(start, title.span),
-            name: title,
-            features: Vec::new(),
-            classes: Vec::new(),
-            tables: Vec::new(),
-            rules: Vec::new(),
-            layouts: Vec::new(),
-            whole: true,
-            doc,
-        };
-        for part in parts {
-            match part.as_rule() {
-                Rule::feature => library.features.extend(self.feature(part)),
-                Rule::class => library.classes.extend(self.class(part)),
-                Rule::tolerant_classes => library.tables.extend(self.table(part)),
-                Rule::tolerant_rule => library.rules.extend(self.rule(part)),
-                Rule::tolerant_layout => library.layouts.extend(self.layout(part)),
-                _ => self.bad(&part),
-            }
-        }
-        library.whole = self.bad.len() == known;
-        Some(library)
-    }
-
-    fn feature(&mut self, pair: Pair<'_, Rule>) -> Option<Feature> {
-        let whole = self.span(&pair);
-        let many = children(pair.clone()).any(|p| p.as_rule() == Rule::kw_many);
-        let mut parts = parts(pair);
-        Some(Feature {
-            name: self.feature_ref(parts.next()?)?,
-            kind: name(self.file, &parts.next()?),
-            many,
-            span: whole,
-        })
-    }
-
-    fn feature_ref(&mut self, pair: Pair<'_, Rule>) -> Option<FeatureRef> {
-        let whole = self.span(&pair);
-        let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
-        let index = parts.next().and_then(|p| self.index(p));
-        Some(FeatureRef {
-            name: title,
-            index,
-            span: whole,
-        })
-    }
-
-    pub(super) fn index(&mut self, pair: Pair<'_, Rule>) -> Option<Index> {
-        let part = parts(pair).next()?;
-        let whole = self.span(&part);
-        Some(match part.as_rule() {
-            Rule::integer => Index::Literal(integer(self, &part), whole),
-            Rule::range => {
-                let ends: Vec<u64> = parts(part).map(|p| integer(self, &p)).collect();
-                Index::Range(*ends.first()?, *ends.get(1)?, whole)
-            }
-            _ => Index::Variable(name(self.file, &part)),
-        })
-    }
-
-    fn class(&mut self, pair: Pair<'_, Rule>) -> Option<Class> {
-        let whole = self.span(&pair);
-        let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
-        let (mut features, mut prior) = (Vec::new(), None);
-        for part in parts {
-            match part.as_rule() {
-                Rule::prior => prior = self.value(part),
-                _ => features.extend(self.feature_ref(part)),
-            }
-        }
-        Some(Class {
-            name: title,
-            features,
-            prior,
-            span: whole,
-        })
-    }
-
-    fn table(&mut self, pair: Pair<'_, Rule>) -> Option<ClassTable> {
-        let mut parts_of = parts(pair);
-        let head = parts_of.next()?;
-        let columns = parts(head).filter_map(|p| self.feature_ref(p)).collect();
-        let mut rows = Vec::new();
-        for part in parts_of {
-            match part.as_rule() {
-                Rule::row => rows.extend(self.row(part)),
-                _ => self.bad(&part),
-            }
-        }
-        Some(ClassTable { columns, rows })
-    }
-
-    fn row(&mut self, pair: Pair<'_, Rule>) -> Option<Row> {
-        let whole = self.span(&pair);
-        let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
-        let (mut cells, mut prior) = (Vec::new(), None);
-        for part in parts {
-            match part.as_rule() {
-                Rule::prior => prior = self.value(part),
-                _ => cells.push(part.as_str() == "1"),
-            }
-        }
-        Some(Row {
-            name: title,
-            cells,
-            prior,
-            span: whole,
-        })
-    }
-
-    fn rule(&mut self, pair: Pair<'_, Rule>) -> Option<RuleItem> {
-        let known = self.bad.len();
-        let mut parts_of = parts(pair);
-        let head = parts_of.next()?;
-        let head_span = self.span(&head);
-        self.slips(&head);
-        let mut features: Vec<FeatureRef> = parts(head).filter_map(|p| self.feature_ref(p)).collect();
-        let consequent = features.pop()?;
-        let mut rule = RuleItem {
-            antecedents: features,
-            consequent,
-            each: Vec::new(),
-            detect: Vec::new(),
-            measure: Vec::new(),
-            predict: Vec::new(),
-            head: head_span,
-            whole: true,
-        };
-        for part in parts_of {
-            match part.as_rule() {
-                Rule::for_each => rule.each.extend(self.for_each(part)),
-                Rule::detect => rule.detect.extend(self.statement(part)),
-                Rule::measure => rule.measure.extend(self.statement(part)),
-                Rule::predict => rule.predict.extend(self.statement(part)),
-                _ => self.bad(&part),
-            }
-        }
-        rule.whole = self.bad.len() == known;
-        Some(rule)
-    }
-
-    fn for_each(&mut self, pair: Pair<'_, Rule>) -> Option<ForEach> {
-        let whole = self.span(&pair);
-        let mut parts = parts(pair);
-        Some(ForEach {
-            variable: name(self.file, &parts.next()?),
-            over: reference(self, parts.next()?)?,
-            span: whole,
-        })
-    }
-
-    fn statement(&mut self, pair: Pair<'_, Rule>) -> Option<Statement> {
+    pub(super) fn statement(&mut self, pair: Pair<'_, Rule>) -> Option<Statement> {
         let whole = self.span(&pair);
         Some(Statement {
             value: self.value(pair)?,
@@ -385,162 +221,14 @@ impl Builder<'_> {
     }
 
     /// The expression of a word that is followed by one.
-    fn value(&mut self, pair: Pair<'_, Rule>) -> Option<super::tree::Expr> {
+    pub(super) fn value(&mut self, pair: Pair<'_, Rule>) -> Option<super::tree::Expr> {
         self.slips(&pair);
         let part = parts(pair).next()?;
         Some(expr(self, part))
     }
 
-    fn layout(&mut self, pair: Pair<'_, Rule>) -> Option<Layout> {
-        let known = self.bad.len();
-        let mut parts_of = parts(pair);
-        let head = parts_of.next()?;
-        let head_span = self.span(&head);
-        let title = name(self.file, &parts(head).next()?);
-        let mut places = Vec::new();
-        for part in parts_of {
-            match part.as_rule() {
-                Rule::place => places.extend(self.place(part)),
-                _ => self.bad(&part),
-            }
-        }
-        Some(Layout {
-            name: title,
-            places,
-            head: head_span,
-            whole: self.bad.len() == known,
-        })
-    }
-
-    fn place(&mut self, pair: Pair<'_, Rule>) -> Option<LayoutPlace> {
-        let whole = self.span(&pair);
-        let mut parts = parts(pair);
-        Some(LayoutPlace {
-            feature: self.feature_ref(parts.next()?)?,
-            at: expr(self, parts.next()?),
-            facing: expr(self, parts.next()?),
-            span: whole,
-        })
-    }
-
-    fn task(&mut self, pair: Pair<'_, Rule>) -> Option<Task> {
-        let doc = self.doc(&pair);
-        let start = self.span(&pair);
-        let known = self.bad.len();
-        let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
-        let mut statements = Vec::new();
-        for part in parts {
-            let whole = self.span(&part);
-            match self.task_statement(part) {
-                Some(kind) => statements.push(TaskStatement { kind, span: whole }),
-                None => continue,
-            }
-        }
-        Some(Task {
-            head: start_to(start, title.span),
-            name: title,
-            statements,
-            whole: self.bad.len() == known,
-            doc,
-        })
-    }
-
-    fn task_statement(&mut self, pair: Pair<'_, Rule>) -> Option<TaskStatementKind> {
-        use TaskStatementKind as Kind;
-        self.slips(&pair);
-        let kind = pair.as_rule();
-        if kind == Rule::bad_task_statement {
-            self.bad(&pair);
-            return None;
-        }
-        let mut parts = parts(pair);
-        Some(match kind {
-            Rule::library_of => Kind::Library(name(self.file, &parts.next()?)),
-            Rule::goal => Kind::Goal(parts.map(|p| name(self.file, &p)).collect()),
-            Rule::camera => Kind::Camera(expr(self, parts.next()?)),
-            Rule::space => Kind::Space {
-                shape: expr(self, parts.next()?),
-                at: expr(self, parts.next()?),
-                voxel: expr(self, parts.next()?),
-            },
-            Rule::views => Kind::Views(expr(self, parts.next()?)),
-            Rule::thresholds => Kind::Thresholds(self.fields(parts.next()?)),
-            Rule::limit => Kind::Limit(expr(self, parts.next()?)),
-            Rule::overlap => Kind::Overlap(expr(self, parts.next()?)),
-            Rule::method => Kind::Method(name(self.file, &parts.next()?)),
-            Rule::gain_floor => Kind::GainFloor(expr(self, parts.next()?)),
-            Rule::inspected => Kind::Inspected(name(self.file, &parts.next()?)),
-            Rule::verify => Kind::Verify(name(self.file, &parts.next()?)),
-            _ => Kind::SensorModel(self.fields(parts.next()?)),
-        })
-    }
-
-    fn fields(&mut self, pair: Pair<'_, Rule>) -> Vec<Field> {
-        parts(pair)
-            .filter_map(|p| {
-                self.slips(&p);
-                let mut parts = parts(p);
-                Some(Field {
-                    name: name(self.file, &parts.next()?),
-                    value: expr(self, parts.next()?),
-                })
-            })
-            .collect()
-    }
-
-    fn scene(&mut self, pair: Pair<'_, Rule>) -> Option<Scene> {
-        let start = self.span(&pair);
-        let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
-        let (mut backdrops, mut objects) = (Vec::new(), Vec::new());
-        for part in parts {
-            match part.as_rule() {
-                Rule::backdrop => backdrops.extend(self.statement(part)),
-                Rule::object => objects.extend(self.object(part)),
-                _ => self.bad(&part),
-            }
-        }
-        Some(Scene {
-            head: start_to(start, title.span),
-            name: title,
-            backdrops,
-            objects,
-        })
-    }
-
-    fn object(&mut self, pair: Pair<'_, Rule>) -> Option<Object> {
-        let whole = self.span(&pair);
-        let mut parts_of = parts(pair);
-        let title = name(self.file, &parts_of.next()?);
-        let shape = expr(self, parts_of.next()?);
-        let at = expr(self, parts_of.next()?);
-        let (mut turned, mut marked) = (None, None);
-        for part in parts_of {
-            match part.as_rule() {
-                Rule::turned => turned = self.value(part),
-                _ => {
-                    let mut names = parts(part).map(|p| name(self.file, &p));
-                    marked = Some(Marked {
-                        library: names.next()?,
-                        layout: names.next()?,
-                        class: names.next()?,
-                    });
-                }
-            }
-        }
-        Some(Object {
-            name: title,
-            shape,
-            at,
-            turned,
-            marked,
-            span: whole,
-        })
-    }
-
     /// The `///` lines that end right before a declaration.
-    fn doc(&self, pair: &Pair<'_, Rule>) -> String {
+    pub(super) fn doc(&self, pair: &Pair<'_, Rule>) -> String {
         let mut end = pair.as_span().start();
         let mut lines = Vec::new();
         let before = self.comments.partition_point(|c| c.start < end);
@@ -559,6 +247,6 @@ impl Builder<'_> {
     }
 }
 
-fn start_to(start: Span, end: Span) -> Span {
+pub(super) fn start_to(start: Span, end: Span) -> Span {
     Span { end: end.end, ..start }
 }

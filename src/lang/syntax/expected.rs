@@ -6,7 +6,10 @@ use super::Rule;
 
 /// The names of expected rules, sorted, each once.
 pub(super) fn names(rules: &[Rule]) -> Vec<String> {
-    let found: BTreeSet<(u8, String)> = rules.iter().filter_map(|r| describe(*r)).collect();
+    let rules = rules
+        .iter()
+        .flat_map(|r| members(*r).map_or(std::slice::from_ref(r), |m| m));
+    let found: BTreeSet<(u8, String)> = rules.filter_map(|r| describe(*r)).collect();
     found.into_iter().map(|(_, text)| text).collect()
 }
 
@@ -20,6 +23,46 @@ pub(super) fn list(names: &[String]) -> String {
         _ if names.len() > MOST => format!("{} or another", shown.join(", ")),
         [init @ .., last] => format!("{} or {last}", init.join(", ")),
     }
+}
+
+/// What an entry would have begun with.
+fn members(start: Rule) -> Option<&'static [Rule]> {
+    Some(match start {
+        Rule::item_only => &[
+            Rule::kw_use,
+            Rule::kw_let,
+            Rule::kw_library,
+            Rule::kw_task,
+            Rule::kw_scene,
+        ],
+        Rule::entry_only => &[
+            Rule::kw_feature,
+            Rule::kw_class,
+            Rule::kw_classes,
+            Rule::kw_rule,
+            Rule::kw_layout,
+        ],
+        Rule::rule_statement_only => &[Rule::kw_for, Rule::kw_detect, Rule::kw_measure, Rule::kw_predict],
+        Rule::task_statement_only => &[
+            Rule::kw_library,
+            Rule::kw_goal,
+            Rule::kw_camera,
+            Rule::kw_space,
+            Rule::kw_views,
+            Rule::kw_thresholds,
+            Rule::kw_limit,
+            Rule::kw_overlap,
+            Rule::kw_method,
+            Rule::kw_gain_floor,
+            Rule::kw_inspected,
+            Rule::kw_verify,
+            Rule::kw_sensor_model,
+        ],
+        Rule::scene_statement_only => &[Rule::kw_backdrop, Rule::kw_object],
+        Rule::row_only => &[Rule::row],
+        Rule::place_only => &[Rule::place],
+        _ => return None,
+    })
 }
 
 /// A rank for sorting and the words; none for what says nothing to a user.

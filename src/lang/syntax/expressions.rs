@@ -49,7 +49,7 @@ pub(super) fn expr(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> Expr {
     let kind = match pair.as_rule() {
         Rule::expr | Rule::line_expr => return fold(b, pair, |_, left, right| ExprKind::Else(left, right)),
         Rule::sum | Rule::line_sum | Rule::product | Rule::line_product => {
-            return fold(b, pair, |op, left, right| ExprKind::Binary(op, left, right));
+            return fold(b, pair, ExprKind::Binary);
         }
         Rule::unary => return unary(b, pair),
         Rule::group => match parts(pair).next() {

@@ -8,26 +8,23 @@ use crate::lang::source::{FileId, Span};
 /// Deepest nesting of brackets.
 const MOST_NESTED: usize = 128;
 
-/// Refuses what the parser should not be shown.
-pub(super) fn check(file: FileId, text: &str) -> Result<(), Diagnostic> {
+/// Why a text is not shown to the parser.
+pub(super) fn refuse(file: FileId, text: &str) -> Option<Diagnostic> {
     if let Some(at) = text.bytes().position(|b| b == 0) {
-        return Err(Diagnostic::new(
+        let out = Diagnostic::new(
             Code::E0107,
             Span::new(file, at, at + 1),
             format!("a NUL byte at offset {at}: this is no text file"),
-        )
-        .help("save the program as UTF-8 text"));
+        );
+        return Some(out.help("save the program as UTF-8 text"));
     }
-    match too_deep(text) {
-        None => Ok(()),
-        Some(at) => Err(Diagnostic::new(
-            Code::E0108,
-            Span::new(file, at, at + 1),
-            format!("brackets are nested more than {MOST_NESTED} deep"),
-        )
-        .label("the innermost one that is read")
-        .help("close brackets that were left open, or name parts of the expression with `let`")),
-    }
+    let at = too_deep(text)?;
+    let message = format!("brackets are nested more than {MOST_NESTED} deep");
+    Some(
+        Diagnostic::new(Code::E0108, Span::new(file, at, at + 1), message)
+            .label("the innermost one that is read")
+            .help("close brackets that were left open, or name parts of the expression with `let`"),
+    )
 }
 
 /// The offset of the bracket that goes too deep.

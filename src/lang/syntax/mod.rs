@@ -4,11 +4,15 @@
 //! parsed again strictly for an exact message ([`recover`]); what it could read
 //! becomes the tree ([`build`]), so that one run finds many mistakes.
 
+#[cfg(test)]
+mod agreement;
 mod build;
 mod expected;
 mod expressions;
 mod guard;
+mod libraries;
 mod recover;
+mod tasks;
 pub mod tree;
 
 use std::num::NonZeroUsize;
@@ -31,7 +35,7 @@ const MOST_CALLS: usize = 400_000_000;
 /// The tree of a text, and what is wrong with it: for tools that read or rewrite programs.
 pub fn parse(file: FileId, text: &str) -> (tree::File, Vec<Diagnostic>) {
     limit_calls();
-    if let Err(found) = guard::check(file, text) {
+    if let Some(found) = guard::refuse(file, text) {
         return (tree::File::default(), vec![found]);
     }
     match Grammar::parse(Rule::tolerant_file, text) {
@@ -50,7 +54,7 @@ fn limit_calls() {
 #[cfg(test)]
 pub(super) fn strictly_accepts(text: &str) -> bool {
     limit_calls();
-    guard::check(FileId(0), text).is_ok() && Grammar::parse(Rule::file, text).is_ok()
+    guard::refuse(FileId(0), text).is_none() && Grammar::parse(Rule::file, text).is_ok()
 }
 
 /// Whether the tolerant entry finds nothing bad in a text.
@@ -58,7 +62,7 @@ pub(super) fn strictly_accepts(text: &str) -> bool {
 pub(super) fn tolerantly_accepts(text: &str) -> bool {
     limit_calls();
     let pairs = Grammar::parse(Rule::tolerant_file, text);
-    guard::check(FileId(0), text).is_ok()
+    guard::refuse(FileId(0), text).is_none()
         && pairs.is_ok_and(|pairs| {
             let mut all = pairs.flatten();
             let bad = all.clone().any(|pair| recover::strict_entry(pair.as_rule()).is_some());

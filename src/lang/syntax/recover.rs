@@ -79,14 +79,14 @@ fn unfinished(region: Span, at: usize, expected: &[String], part: &str) -> Diagn
     let end = region.start + part[..at].trim_end().len();
     let last = Span::new(region.file, end, end);
     let unclosed = expected.iter().any(|e| e == "`}`") && at >= part.trim_end().len();
-    let out = syntax_error(last, message(expected, "the text ends")).label("here");
     if unclosed && let Some(open) = last_open_brace(part) {
         let open = region.start + open;
-        return out
+        return syntax_error(last, "a `}` is missing")
+            .label("expected here")
             .related(Span::new(region.file, open, open + 1), "this `{` is not closed")
             .help("add the missing `}`");
     }
-    out
+    syntax_error(last, message(expected, "found the end of the line")).label("here")
 }
 
 fn message(expected: &[String], found: &str) -> String {
@@ -104,6 +104,10 @@ fn advice(found: &str, expected: &[String]) -> Option<String> {
         "'" => Some("a text stands in double quotes".into()),
         "#" => Some("a comment begins with `//`".into()),
         "/*" => Some("a comment begins with `//` and ends with its line".into()),
+        "feature" | "class" | "classes" | "rule" | "layout" if has("`library`") => {
+            Some(format!("`{found}` belongs inside the braces of a `library`"))
+        }
+        _ if has("`0` or `1`") => Some("a row is a name and its cells, 0 or 1, with spaces between".into()),
         _ if suggest::RESERVED.contains(&found) => Some(format!(
             "`{found}` begins a declaration: it is reserved, and stands neither here nor as a name"
         )),

@@ -210,7 +210,7 @@ pub enum TaskStatementKind {
     Library(Name),
     Goal(Vec<Name>),
     Camera(Expr),
-    Space { shape: Expr, at: Expr, voxel: Expr },
+    Space(Box<SpaceStatement>),
     Views(Expr),
     Thresholds(Vec<Field>),
     Limit(Expr),
@@ -222,6 +222,14 @@ pub enum TaskStatementKind {
     SensorModel(Vec<Field>),
 }
 
+/// `space cube(600 mm) at [0 mm, 0 mm, 300 mm] voxel 10 mm`.
+#[derive(Clone, Debug)]
+pub struct SpaceStatement {
+    pub shape: Expr,
+    pub at: Expr,
+    pub voxel: Expr,
+}
+
 impl TaskStatementKind {
     /// The word that begins it.
     pub fn word(&self) -> &'static str {
@@ -229,7 +237,7 @@ impl TaskStatementKind {
             Self::Library(_) => "library",
             Self::Goal(_) => "goal",
             Self::Camera(_) => "camera",
-            Self::Space { .. } => "space",
+            Self::Space(_) => "space",
             Self::Views(_) => "views",
             Self::Thresholds(_) => "thresholds",
             Self::Limit(_) => "limit",

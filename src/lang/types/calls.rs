@@ -216,7 +216,7 @@ impl Checker<'_> {
             Diagnostic::new(
                 Code::E0303,
                 call.name.span,
-                format!("`{callee}` lacks {}", described.join(" and ")),
+                format!("`{callee}` lacks {}", described.join(", ")),
             )
             .help(format!("its arguments are {}", list_names(wanted))),
         );

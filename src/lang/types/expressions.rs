@@ -2,11 +2,11 @@
 
 use super::scope::Scope;
 use super::typed::{Expr, ExprKind, TextPart};
-use super::{Checker, colours, units};
+use super::{Checker, units};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
-use crate::lang::syntax::tree::{self, Operator};
+use crate::lang::syntax::tree;
 use crate::primitives::Type;
 use crate::rules::{Colour, Value};
 
@@ -265,37 +265,6 @@ impl Checker<'_> {
         Some(made(ExprKind::List(list), ty, span))
     }
 
-    fn negate(&mut self, inner: &tree::Expr, span: Span, scope: Scope<'_>) -> Option<Expr> {
-        let inner = self.infer(inner, scope)?;
-        let ty = match inner.ty {
-            Type::Count => Type::Number,
-            ty if units::is_quantity(ty) || ty == Type::Direction => ty,
-            ty => {
-                let message = format!("{} has no negative", units::describe(ty));
-                self.report(Diagnostic::new(Code::E0305, span, message));
-                return None;
-            }
-        };
-        Some(made(ExprKind::Negate(Box::new(inner)), ty, span))
-    }
-
-    fn binary(&mut self, op: Operator, a: &tree::Expr, b: &tree::Expr, span: Span, scope: Scope<'_>) -> Option<Expr> {
-        let left = self.infer(a, scope);
-        let right = match (op, &left) {
-            (Operator::Add | Operator::Subtract, Some(l)) if !units::of(l.ty).is_empty() || l.ty == Type::Point => {
-                let what = format!("the right side of `{}`", op.symbol());
-                self.check(b, Due { ty: l.ty, what: &what }, scope)
-            }
-            _ => self.infer(b, scope),
-        };
-        let (left, right) = (left?, right?);
-        let Some(ty) = combined(op, left.ty, right.ty) else {
-            self.report(cannot_combine(op, &left, &right, span));
-            return None;
-        };
-        Some(made(ExprKind::Binary(op, Box::new(left), Box::new(right)), ty, span))
-    }
-
     /// Turns what is meant anyway into the type that is due.
     pub(super) fn coerce(&mut self, found: Expr, due: Due<'_>) -> Option<Expr> {
         let fits = found.ty == due.ty
@@ -310,9 +279,9 @@ impl Checker<'_> {
             Code::E0301,
             found.span,
             format!(
-                "{} is {}, and this is {}",
-                due.what,
+                "expected {} for {}, found {}",
                 units::describe(due.ty),
+                due.what,
                 units::describe(found.ty)
             ),
         )
@@ -323,89 +292,10 @@ impl Checker<'_> {
         self.report(out);
         None
     }
-
-    /// Whether a reference is a colour or one of some words rather than a name.
-    fn is_word(&self, r: &tree::Reference, due: Type, scope: Scope<'_>) -> bool {
-        let name = &r.name.text;
-        let plain = r.index.is_none() && r.fields.is_empty();
-        let named = scope.parameter(name).is_some()
-            || scope.variable(name).is_some()
-            || (scope.module.scope.contains_key(name) && colours::named(name).is_none());
-        plain && !named && matches!(due, Type::Colour | Type::Choice(_))
-    }
-
-    fn word(&mut self, r: &tree::Reference, due: Due<'_>) -> Option<Expr> {
-        let name = &r.name;
-        let words: Vec<&str> = match due.ty {
-            Type::Choice(words) => words.to_vec(),
-            _ => colours::names().collect(),
-        };
-        let value = match due.ty {
-            Type::Choice(_) if words.contains(&name.text.as_str()) => Some(Value::Choice(name.text.clone())),
-            Type::Choice(_) => None,
-            _ => colours::named(&name.text).map(Value::Colour),
-        };
-        match value {
-            Some(value) => Some(constant(value, due.ty, r.span)),
-            None => {
-                self.unknown_word(name, due.what, &words);
-                None
-            }
-        }
-    }
-
-    /// Reports a word that is none of those that are due.
-    pub(super) fn unknown_word(&mut self, name: &tree::Name, what: &str, words: &[&str]) {
-        let out = Diagnostic::new(Code::E0306, name.span, format!("{what} cannot be `{}`", name.text));
-        let out = match closest(&name.text, words.iter().copied()) {
-            Some(near) => out
-                .help(format!("did you mean `{near}`?"))
-                .fix(format!("write `{near}`"), name.span, near),
-            None => out.help(format!("it is {}", one_of(words.iter().copied()))),
-        };
-        self.report(out);
-    }
 }
 
 fn takes_list(ty: Type) -> bool {
     matches!(ty, Type::Point | Type::Direction | Type::List(_))
-}
-
-/// The type of a sum, difference, product or quotient.
-fn combined(op: Operator, left: Type, right: Type) -> Option<Type> {
-    let number = |ty| matches!(ty, Type::Number | Type::Count);
-    match op {
-        Operator::Add | Operator::Subtract if left == Type::Point && right == Type::Point => Some(Type::Point),
-        Operator::Add if left == Type::Count && right == Type::Count => Some(Type::Count),
-        Operator::Add | Operator::Subtract if number(left) && number(right) => Some(Type::Number),
-        Operator::Add | Operator::Subtract => (left == right && units::is_quantity(left)).then_some(left),
-        Operator::Multiply if left == Type::Count && right == Type::Count => Some(Type::Count),
-        Operator::Multiply | Operator::Divide if number(left) && number(right) => Some(Type::Number),
-        Operator::Multiply if number(left) => units::is_quantity(right).then_some(right),
-        Operator::Multiply | Operator::Divide if number(right) => units::is_quantity(left).then_some(left),
-        Operator::Multiply | Operator::Divide => None,
-    }
-}
-
-fn cannot_combine(op: Operator, left: &Expr, right: &Expr, span: Span) -> Diagnostic {
-    let help = match op {
-        Operator::Add | Operator::Subtract => "both sides need the same dimension",
-        Operator::Multiply => "one side of `*` is a bare number",
-        Operator::Divide => "the right side of `/` is a bare number",
-    };
-    Diagnostic::new(
-        Code::E0305,
-        span,
-        format!(
-            "{} and {} cannot be combined with `{}`",
-            units::describe(left.ty),
-            units::describe(right.ty),
-            op.symbol()
-        ),
-    )
-    .related(left.span, units::describe(left.ty))
-    .related(right.span, units::describe(right.ty))
-    .help(help)
 }
 
 pub(super) fn made(kind: ExprKind, ty: Type, span: Span) -> Expr {

@@ -139,7 +139,10 @@ impl<'a> Checker<'a> {
         let mut out = Diagnostic::new(
             Code::E0310,
             row.span,
-            format!("the row of `{}` has {found} cells, expected {expected}", row.name.text),
+            format!(
+                "expected {expected} cells in the row of `{}`, found {found}",
+                row.name.text
+            ),
         )
         .help("a row has a 1 or a 0 for each feature of the table, in its order");
         if let (Some(first), Some(last)) = (table.columns.first(), table.columns.last()) {

@@ -9,6 +9,7 @@ mod expressions;
 mod features;
 mod forms;
 mod library;
+mod operators;
 mod references;
 mod rule;
 mod scene;
@@ -16,6 +17,7 @@ mod scope;
 mod task;
 pub(super) mod typed;
 pub(super) mod units;
+mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 

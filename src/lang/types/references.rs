@@ -121,7 +121,7 @@ impl Checker<'_> {
                 out.help(format!("did you mean `{near}`?"))
                     .fix(format!("write `{near}`"), name.span, near)
             }
-            (None, None) => out,
+            (None, None) => out.help("define it with `let`, or import it with `use`"),
         });
     }
 

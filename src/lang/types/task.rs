@@ -70,12 +70,12 @@ impl<'a> Checker<'a> {
             Kind::Library(name) => draft.library = self.library_of(name, libraries),
             Kind::Goal(words) => draft.goal = self.goal(words),
             Kind::Camera(e) => self.value(draft, "camera", e, Type::Camera),
-            Kind::Space { shape, at, voxel } => {
+            Kind::Space(space) => {
                 let scope = Scope::of(self.program.main());
-                let shape = self.form(shape, SPACES, "`space`", scope);
+                let shape = self.form(&space.shape, SPACES, "`space`", scope);
                 draft.values.extend(shape.map(|shape| ("space", shape)));
-                self.value(draft, "at", at, Type::Point);
-                self.value(draft, "voxel", voxel, Type::Length);
+                self.value(draft, "at", &space.at, Type::Point);
+                self.value(draft, "voxel", &space.voxel, Type::Length);
             }
             Kind::Views(e) => self.value(draft, "views", e, Type::Views),
             Kind::Thresholds(fields) => draft.thresholds = self.fields(fields, THRESHOLDS, "thresholds"),

@@ -1,0 +1,205 @@
+//! From the parser's pairs to the tree: libraries and their members.
+
+use pest::iterators::Pair;
+
+use super::Rule;
+use super::build::{Builder, children, parts, start_to};
+use super::expressions::{expr, integer, name, reference};
+use super::tree::{
+    Class, ClassTable, Feature, FeatureRef, ForEach, Index, Layout, LayoutPlace, Library, Row, Rule as RuleItem,
+};
+
+impl Builder<'_> {
+    pub(super) fn library(&mut self, pair: Pair<'_, Rule>) -> Option<Library> {
+        let doc = self.doc(&pair);
+        let start = self.span(&pair);
+        let known = self.bad.len();
+        let mut parts = parts(pair);
+        let title = name(self.file, &parts.next()?);
+        let mut library = Library {
+            head: start_to(start, title.span),
+            name: title,
+            features: Vec::new(),
+            classes: Vec::new(),
+            tables: Vec::new(),
+            rules: Vec::new(),
+            layouts: Vec::new(),
+            whole: true,
+            doc,
+        };
+        for part in parts {
+            match part.as_rule() {
+                Rule::feature => library.features.extend(self.feature(part)),
+                Rule::class => library.classes.extend(self.class(part)),
+                Rule::tolerant_classes => library.tables.extend(self.table(part)),
+                Rule::tolerant_rule => library.rules.extend(self.rule(part)),
+                Rule::tolerant_layout => library.layouts.extend(self.layout(part)),
+                _ => self.bad(&part),
+            }
+        }
+        library.whole = self.bad.len() == known;
+        Some(library)
+    }
+
+    fn feature(&mut self, pair: Pair<'_, Rule>) -> Option<Feature> {
+        let whole = self.span(&pair);
+        let many = children(pair.clone()).any(|p| p.as_rule() == Rule::kw_many);
+        let mut parts = parts(pair);
+        Some(Feature {
+            name: self.feature_ref(parts.next()?)?,
+            kind: name(self.file, &parts.next()?),
+            many,
+            span: whole,
+        })
+    }
+
+    fn feature_ref(&mut self, pair: Pair<'_, Rule>) -> Option<FeatureRef> {
+        let whole = self.span(&pair);
+        let mut parts = parts(pair);
+        let title = name(self.file, &parts.next()?);
+        let index = parts.next().and_then(|p| self.index(p));
+        Some(FeatureRef {
+            name: title,
+            index,
+            span: whole,
+        })
+    }
+
+    pub(super) fn index(&mut self, pair: Pair<'_, Rule>) -> Option<Index> {
+        let part = parts(pair).next()?;
+        let whole = self.span(&part);
+        Some(match part.as_rule() {
+            Rule::integer => Index::Literal(integer(self, &part), whole),
+            Rule::range => {
+                let ends: Vec<u64> = parts(part).map(|p| integer(self, &p)).collect();
+                Index::Range(*ends.first()?, *ends.get(1)?, whole)
+            }
+            _ => Index::Variable(name(self.file, &part)),
+        })
+    }
+
+    fn class(&mut self, pair: Pair<'_, Rule>) -> Option<Class> {
+        let whole = self.span(&pair);
+        let mut parts = parts(pair);
+        let title = name(self.file, &parts.next()?);
+        let (mut features, mut prior) = (Vec::new(), None);
+        for part in parts {
+            match part.as_rule() {
+                Rule::prior => prior = self.value(part),
+                _ => features.extend(self.feature_ref(part)),
+            }
+        }
+        Some(Class {
+            name: title,
+            features,
+            prior,
+            span: whole,
+        })
+    }
+
+    fn table(&mut self, pair: Pair<'_, Rule>) -> Option<ClassTable> {
+        let mut parts_of = parts(pair);
+        let head = parts_of.next()?;
+        let columns = parts(head).filter_map(|p| self.feature_ref(p)).collect();
+        let mut rows = Vec::new();
+        for part in parts_of {
+            match part.as_rule() {
+                Rule::row => rows.extend(self.row(part)),
+                _ => self.bad(&part),
+            }
+        }
+        Some(ClassTable { columns, rows })
+    }
+
+    fn row(&mut self, pair: Pair<'_, Rule>) -> Option<Row> {
+        let whole = self.span(&pair);
+        let mut parts = parts(pair);
+        let title = name(self.file, &parts.next()?);
+        let (mut cells, mut prior) = (Vec::new(), None);
+        for part in parts {
+            match part.as_rule() {
+                Rule::prior => prior = self.value(part),
+                _ => cells.push(part.as_str() == "1"),
+            }
+        }
+        Some(Row {
+            name: title,
+            cells,
+            prior,
+            span: whole,
+        })
+    }
+
+    fn rule(&mut self, pair: Pair<'_, Rule>) -> Option<RuleItem> {
+        let known = self.bad.len();
+        let mut parts_of = parts(pair);
+        let head = parts_of.next()?;
+        let head_span = self.span(&head);
+        self.slips(&head);
+        let mut features: Vec<FeatureRef> = parts(head).filter_map(|p| self.feature_ref(p)).collect();
+        let consequent = features.pop()?;
+        let mut rule = RuleItem {
+            antecedents: features,
+            consequent,
+            each: Vec::new(),
+            detect: Vec::new(),
+            measure: Vec::new(),
+            predict: Vec::new(),
+            head: head_span,
+            whole: true,
+        };
+        for part in parts_of {
+            match part.as_rule() {
+                Rule::for_each => rule.each.extend(self.for_each(part)),
+                Rule::detect => rule.detect.extend(self.statement(part)),
+                Rule::measure => rule.measure.extend(self.statement(part)),
+                Rule::predict => rule.predict.extend(self.statement(part)),
+                _ => self.bad(&part),
+            }
+        }
+        rule.whole = self.bad.len() == known;
+        Some(rule)
+    }
+
+    fn for_each(&mut self, pair: Pair<'_, Rule>) -> Option<ForEach> {
+        let whole = self.span(&pair);
+        let mut parts = parts(pair);
+        Some(ForEach {
+            variable: name(self.file, &parts.next()?),
+            over: reference(self, parts.next()?)?,
+            span: whole,
+        })
+    }
+
+    fn layout(&mut self, pair: Pair<'_, Rule>) -> Option<Layout> {
+        let known = self.bad.len();
+        let mut parts_of = parts(pair);
+        let head = parts_of.next()?;
+        let head_span = self.span(&head);
+        let title = name(self.file, &parts(head).next()?);
+        let mut places = Vec::new();
+        for part in parts_of {
+            match part.as_rule() {
+                Rule::place => places.extend(self.place(part)),
+                _ => self.bad(&part),
+            }
+        }
+        Some(Layout {
+            name: title,
+            places,
+            head: head_span,
+            whole: self.bad.len() == known,
+        })
+    }
+
+    fn place(&mut self, pair: Pair<'_, Rule>) -> Option<LayoutPlace> {
+        let whole = self.span(&pair);
+        let mut parts = parts(pair);
+        Some(LayoutPlace {
+            feature: self.feature_ref(parts.next()?)?,
+            at: expr(self, parts.next()?),
+            facing: expr(self, parts.next()?),
+            span: whole,
+        })
+    }
+}
