@@ -11,11 +11,10 @@
 use std::process::ExitCode;
 
 use rayon::prelude::*;
-use vpl::geometry::{Camera, Pose};
 use vpl::lang::{self, ReadFailure, World};
-use vpl::plan::{ClosedLoop, Decision, End, Options, Outcome, Part, Phase, Sensor, Session};
+use vpl::plan::{ClosedLoop, Decision, End, Options, Outcome, Part, Phase, Session, Simulated};
 use vpl::rules::{RuleSet, Scene, SceneObject, Task};
-use vpl::sense::{Coverage, Noise, Observation, Simulator};
+use vpl::sense::{Coverage, Noise, Simulator};
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
@@ -205,20 +204,6 @@ fn wrong(runs: &[(&str, &Run)], recognition: bool) -> usize {
         runs.iter().filter(is_wrong).count()
     } else {
         0
-    }
-}
-
-struct Simulated<'a> {
-    simulator: &'a Simulator,
-    camera: Camera,
-    noise: Noise,
-    seed: u64,
-}
-
-impl Sensor for Simulated<'_> {
-    fn measure(&mut self, n: u32, _view: usize, world_from_camera: &Pose) -> Observation {
-        self.simulator
-            .observe(&self.camera, world_from_camera, self.noise, self.seed, n)
     }
 }
 

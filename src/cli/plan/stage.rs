@@ -6,9 +6,9 @@ use super::{AxisOption, Plan, UnitsOption, listed};
 use crate::cli::{Failure, report};
 use crate::geometry::{Camera, Point, Pose};
 use crate::lang::{Code, Compilation, Diagnostic};
-use crate::plan::{Sensor, Session};
+use crate::plan::{Session, Simulated};
 use crate::rules::{Backdrop, Colour, Place, RuleSet, Scene, SceneObject, Task};
-use crate::sense::{Axis, Mesh, MeshError, MeshOptions, Noise, Observation, SceneError, Simulator, Units, mesh};
+use crate::sense::{Axis, Mesh, MeshError, MeshOptions, Noise, SceneError, Simulator, Units, mesh};
 
 /// The simulator with its object.
 pub(super) struct Stage {
@@ -18,21 +18,6 @@ pub(super) struct Stage {
     pub simulator: Simulator,
     /// Where diagnostics about it point.
     place: Place,
-}
-
-/// The simulator as a sensor.
-pub(super) struct Simulated<'a> {
-    simulator: &'a Simulator,
-    camera: Camera,
-    noise: Noise,
-    seed: u64,
-}
-
-impl Sensor for Simulated<'_> {
-    fn measure(&mut self, n: u32, _view: usize, world_from_camera: &Pose) -> Observation {
-        self.simulator
-            .observe(&self.camera, world_from_camera, self.noise, self.seed, n)
-    }
 }
 
 impl Stage {
