@@ -12,7 +12,7 @@ use crate::sense::Simulator;
 use crate::sense::raster::Visibility;
 
 /// Pixels along the edge of a tile.
-const TILE: usize = 8;
+const TILE: usize = 4;
 
 /// A candidate view and what it shows.
 pub(super) struct View<'a> {
