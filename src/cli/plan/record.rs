@@ -80,8 +80,7 @@ impl Recorder {
             _ => None,
         });
         let line = view_line(before, &view, target.as_deref());
-        // Progress that nobody reads any more is no reason to end a run.
-        let _ = self.bar.suspend(|| report(&format!("{line}\n")));
+        self.bar.suspend(|| report(&format!("{line}\n")))?;
         self.write(Record::View(Box::new(view)))
     }
 

@@ -178,7 +178,7 @@ fn units_that_fit(stage: &Stage, task: &Task, before: &str, after: &str) -> Opti
         .filter(|(_, to)| all.iter().any(|(_, from)| fits(to / from)))
         .map(|(unit, _)| format!("`{before}{unit}`"))
         .collect();
-    (!any.is_empty()).then(|| format!("are these its units? {}{after} may fit", listed(&any)))
+    (!any.is_empty()).then(|| format!("is it in other units? it would fit with {}{after}", any.join(" or ")))
 }
 
 /// Metres to a tenth of a millimetre, or a power of ten where that is long.
