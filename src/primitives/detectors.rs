@@ -108,6 +108,19 @@ fn modules(detect: &Call) -> f64 {
     code.map_or(QR_MODULES, |c| f64::from(c.size()))
 }
 
+/// Modules of quiet zone on each side of a code.
+const QUIET_ZONE: f64 = 4.0;
+
+/// Edge of the print of a `qr` call, metres: the code with its quiet zone, which
+/// a reader needs as much as the modules.
+///
+/// # Errors
+/// The call has no size.
+pub fn printed_edge(detect: &Call) -> Result<f64, BadArgument> {
+    let modules = modules(detect);
+    Ok(detect.length("size")? * (modules + 2.0 * QUIET_ZONE) / modules)
+}
+
 /// The envelope of a detector call.
 ///
 /// # Errors

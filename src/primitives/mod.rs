@@ -17,7 +17,7 @@ mod views;
 pub use arguments::{Arguments, Datum};
 pub use attributes::{Attribute, attributes};
 pub use cameras::camera;
-pub use detectors::{Envelope, ImageKind, envelope};
+pub use detectors::{Envelope, ImageKind, envelope, printed_edge};
 pub use predictors::{Strength, strength};
 pub use views::{MOST_VIEWS, poses};
 

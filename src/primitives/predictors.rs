@@ -74,7 +74,11 @@ pub(super) const ALL: &[Primitive] = &[
                 Type::Pose,
                 "The layout: the consequent's pose in the antecedent's frame.",
             ),
-            Parameter::required("size", Type::Length, "Edge of the predicted square."),
+            Parameter::required(
+                "size",
+                Type::Length,
+                "Edge of the predicted square: the code with its quiet zone.",
+            ),
         ],
         doc: "Strong: a marker that a rigid layout ties to a detected one. Layouts lower to it.",
     },

@@ -7,6 +7,7 @@ use super::library::MOST_RULES;
 use crate::geometry::{Pose, frame_facing};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::types::typed;
+use crate::primitives::printed_edge;
 use crate::rules::{Call, Expr, FeatureId, Library, Rule, Value};
 
 impl<'a> Lowering<'a> {
@@ -88,12 +89,9 @@ fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, rule: &
             Expr::Value(Value::Pose(antecedent_from_consequent)),
         ),
     ]);
-    arguments.extend(
-        rule.detect
-            .arguments
-            .get("size")
-            .map(|size| ("size".to_owned(), size.clone())),
-    );
+    if let Ok(edge) = printed_edge(&rule.detect) {
+        arguments.insert("size".to_owned(), Expr::Value(Value::Length(edge)));
+    }
     Call {
         primitive: "rigid_marker".into(),
         arguments,
