@@ -71,6 +71,22 @@ fn views_inside_the_object_are_refused() {
 }
 
 #[test]
+fn an_object_outside_the_space_is_refused() {
+    let text = fs::read_to_string(SOLIDS).unwrap();
+    let text = text.replace("[10 mm, -15 mm, 308 mm]", "[10 m, -15 m, 308 m]");
+    plan_of(&text, &folder("outside"), &[]).expect(1, &["E0504", "`m1` stands outside the space"]);
+}
+
+/// ξ of 20 voxels: slow would be for ever.
+#[test]
+fn a_coarse_threshold_is_no_burden() {
+    let text = fs::read_to_string(SOLIDS)
+        .unwrap()
+        .replace("near: 10 mm", "near: 200 mm");
+    plan_of(&text, &folder("coarse"), &["--max-views", "2"]).expect(3, &[]);
+}
+
+#[test]
 fn a_dry_run_prints_and_writes_nothing() {
     let folder = folder("dry_run");
     let files = ["--log", "run.jsonl", "--map", "run.bt", "--dry-run"];

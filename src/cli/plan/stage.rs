@@ -133,6 +133,11 @@ fn sized(stage: Stage, task: &Task, help: Option<String>) -> Set {
     let (object, space) = (stage.simulator.bounds(), task.space.bounds());
     let size = object.size();
     let Some(problem) = misfit(size.max(), task) else {
+        if (0..3).any(|k| object.max[k] < space.min[k] || space.max[k] < object.min[k]) {
+            let message = format!("`{}` stands outside the space of task `{}`", stage.name, task.name);
+            return Ok(Err(Diagnostic::at_place(Code::E0504, stage.place, message)
+                .help("place it in the space: `at` its centre is a start")));
+        }
         if !(space.contains(&object.min) && space.contains(&object.max)) {
             let text = "reaches out of the space; only what lies inside is modelled";
             report(&format!("warning: `{}` {text}\n", stage.name))?;
