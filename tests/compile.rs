@@ -210,7 +210,7 @@ fn a_result_that_cannot_be_written_is_a_clean_error() {
     assert_eq!(output.status.code(), Some(1));
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(
-        said.starts_with("error: `/nowhere/at/all.json` cannot be written"),
+        said.starts_with("error[E0601]: `/nowhere/at/all.json` cannot be written"),
         "{said}"
     );
     if std::path::Path::new("/dev/full").exists() {

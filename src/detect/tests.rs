@@ -70,7 +70,7 @@ fn simulator(shape: Call, place: Pose, markers: Vec<Marker>, space: &Space) -> S
 fn sphere(space: &Space, radius: f64, count: u64) -> Vec<Pose> {
     poses(
         &call(
-            "sphere",
+            "fibonacci_sphere",
             &[("radius", Value::Length(radius)), ("count", Value::Count(count))],
         ),
         space,

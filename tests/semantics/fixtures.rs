@@ -98,9 +98,9 @@ pub fn library(features: Vec<Feature>, classes: Vec<Class>, mut rules: Vec<Rule>
     }
 }
 
-/// A camera of 2000 × 2000 pixels over 90°: 1000 pixels a metre at 1 m.
+/// A camera of 3600 × 3600 pixels over 90°: 1800 pixels a metre at 1 m.
 pub fn camera() -> Camera {
-    let image = Intrinsics::with_fields_of_view(2000, 2000, 90_f64.to_radians(), 90_f64.to_radians());
+    let image = Intrinsics::with_fields_of_view(3600, 3600, 90_f64.to_radians(), 90_f64.to_radians());
     Camera {
         depth: image,
         colour: image,
@@ -124,7 +124,7 @@ pub fn task() -> Task {
             size: Vector::new(4.0, 4.0, 1.0),
             voxel: 1.0,
         },
-        views: call("sphere", []),
+        views: call("fibonacci_sphere", []),
         thresholds: Thresholds {
             near: 0.4,
             absent: 0.99,

@@ -157,15 +157,26 @@ impl Scene<'_> {
         upright
             && inside
             && image.fx / depth >= envelope.min_pixels_per_metre
-            && !self.is_hidden(&eye(view), voxel, self.task.thresholds.near)
+            && !self.is_hidden(&eye(view), voxel, self.tolerance(voxel))
+    }
+
+    /// How far in front a surface may lie without hiding a predicted voxel.
+    fn tolerance(&self, voxel: Voxel) -> f64 {
+        if self.is_near_a_point(voxel) {
+            self.task.thresholds.near
+        } else {
+            0.0
+        }
+    }
+
+    fn is_near_a_point(&self, voxel: Voxel) -> bool {
+        let centre = self.grid.centre(voxel);
+        let near = self.task.thresholds.near;
+        self.points.iter().any(|p| (p - centre).norm() <= near)
     }
 
     fn is_known(&self, voxel: Voxel) -> bool {
-        let centre = self.grid.centre(voxel);
-        let near = self
-            .points
-            .iter()
-            .any(|p| (p - centre).norm() <= self.task.thresholds.near);
+        let near = self.is_near_a_point(voxel);
         let free = self.states[voxel.0 as usize] == Occupancy::Free;
         near || (self.task.inspected == Inspected::Observed && free)
     }

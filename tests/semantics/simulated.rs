@@ -179,7 +179,7 @@ fn reconstruction() -> Task {
 
 fn sphere(radius: f64) -> Call {
     full(
-        "sphere",
+        "fibonacci_sphere",
         [("radius", length(radius)), ("count", Expr::Value(Value::Count(64)))],
     )
 }

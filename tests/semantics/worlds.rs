@@ -4,7 +4,7 @@
 //! and predicts one side, the upright rectangle x = 2.5, y 0.2…2.8, z 0.2…0.8
 //! that faces +x. Its PV is (2,0), (2,1), (2,2) (z = 0 throughout). Two classes,
 //! with and without the side, so it weighs H(½) = 1 bit. The detector's
-//! envelope is 75° and 100 pixels a metre: with f = 1000 up to 10 m.
+//! envelope is 70° and 180 pixels a metre: with f = 1800 up to 10 m.
 
 use super::fixtures::{classes, definite, feature, foot, library, on_base, task};
 use super::trial::{Seen, Trial};

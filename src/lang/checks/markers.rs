@@ -75,8 +75,8 @@ mod tests {
     #[test]
     fn fires_on_a_code_that_no_view_resolves() {
         // 1064 pixels of focal length at 0.78 m or more: 1364 pixels a metre at most;
-        // 5 pixels for each of 21 modules of 60 mm are 1750.
-        assert_eq!(codes(&[("\"l\", size: 200 mm", "\"l\", size: 60 mm")]), [Code::W0407]);
+        // 4 pixels for each of 21 modules of 50 mm are 1680.
+        assert_eq!(codes(&[("\"l\", size: 200 mm", "\"l\", size: 50 mm")]), [Code::W0407]);
         assert_eq!(codes(&[("\"l\", size: 200 mm", "\"l\", size: 110 mm")]), []);
     }
 }

@@ -79,7 +79,8 @@ fn sample_parts_have_the_sizes_that_others_measured() {
         ("formats/cube.ply", METRES, 12, [1.0, 1.0, 1.0], true),
         ("scans/bunny.ply", METRES, 16301, [0.1555, 0.1533, 0.1206], false),
         ("scans/spot.obj", METRES, 5856, [0.9431, 1.69, 1.718], true),
-        ("objects/can.stl", METRES, 956, [0.05, 0.05, 0.08], false),
+        // Its corners differ in the last digit: closed once they are welded.
+        ("objects/can.stl", METRES, 956, [0.05, 0.05, 0.08], true),
     ] {
         let Some(path) = sample(name) else { return };
         let mesh = read(&path, &options).unwrap();
