@@ -89,10 +89,11 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         .map_err(|error| Failure::Write("standard output".into(), error))
 }
 
-/// Writes diagnostics or progress to standard error.
+/// Writes diagnostics or progress to standard error. Where nobody reads it any
+/// more, the work goes on all the same.
 pub(crate) fn report(text: &str) -> Result<(), Failure> {
-    io::stderr()
-        .lock()
-        .write_all(text.as_bytes())
-        .map_err(|error| Failure::Write("standard error".into(), error))
+    match io::stderr().lock().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Write("standard error".into(), error)),
+        _ => Ok(()),
+    }
 }

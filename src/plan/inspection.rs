@@ -93,26 +93,42 @@ fn within_reach(polygon: &Polygon, grid: &Grid) -> bool {
 
 /// The voxels that a prediction tags (eq. 6): unknown now and within `near` of
 /// PV_ij, centre to centre, ascending.
+///
+/// Layer by layer: the voxels within `near` of one are runs along x.
 pub fn tagged<W: World + ?Sized>(world: &W, voxels: &[PredictedVoxel], near: f64) -> Vec<Voxel> {
     let grid = world.grid();
-    let offsets = offsets_within(near / grid.voxel);
-    let mut around = BTreeSet::new();
-    for predicted in voxels {
-        let [x, y, z] = grid.cell(predicted.voxel);
-        around.extend(offsets.iter().filter_map(|[i, j, k]| grid.at([x + i, y + j, z + k])));
+    let [width, depth, height] = grid.size.map(i64::from);
+    let cells: Vec<[i64; 3]> = voxels.iter().map(|v| grid.cell(v.voxel)).collect();
+    let (Some(first), Some(last)) = (cells.first(), cells.last()) else {
+        return Vec::new();
+    };
+    let radius = (near / grid.voxel).clamp(0.0, width.max(depth).max(height) as f64);
+    let reach = radius.floor() as i64;
+    let mut tagged = Vec::new();
+    for z in (first[2] - reach).max(0)..=(last[2] + reach).min(height - 1) {
+        let mut layer = vec![false; (width * depth) as usize];
+        let below = cells.partition_point(|c| c[2] < z - reach);
+        for [x, y, from] in cells[below..].iter().take_while(|c| c[2] <= z + reach) {
+            for row in (y - reach).max(0)..=(y + reach).min(depth - 1) {
+                let Some(half) = half_width(radius, row - y, z - from) else {
+                    continue;
+                };
+                let (start, end) = ((x - half).max(0), (x + half).min(width - 1));
+                layer[(row * width + start) as usize..=(row * width + end) as usize].fill(true);
+            }
+        }
+        let around = layer.iter().enumerate().filter(|(_, marked)| **marked);
+        let voxels = around.filter_map(|(k, _)| grid.at([k as i64 % width, k as i64 / width, z]));
+        tagged.extend(voxels.filter(|v| world.occupancy(*v) == Occupancy::Unknown));
     }
-    around.retain(|v| world.occupancy(*v) == Occupancy::Unknown);
-    around.into_iter().collect()
+    tagged
 }
 
-/// Integer offsets no longer than `radius` cells, the border included.
-fn offsets_within(radius: f64) -> Vec<[i64; 3]> {
-    let reach = radius.clamp(0.0, 64.0).floor() as i64;
-    let steps = || -reach..=reach;
-    let cube = steps().flat_map(|i| steps().flat_map(move |j| steps().map(move |k| [i, j, k])));
-    let squared = radius * radius + 1e-9;
-    cube.filter(|o| o.iter().map(|c| (c * c) as f64).sum::<f64>() <= squared)
-        .collect()
+/// Half the run along x, in cells, of what lies within `radius` cells, the
+/// border included; `None` where the row lies beyond.
+fn half_width(radius: f64, dy: i64, dz: i64) -> Option<i64> {
+    let left = radius * radius + 1e-9 - (dy * dy + dz * dz) as f64;
+    (left >= 0.0).then(|| left.sqrt().floor() as i64)
 }
 
 /// Which of the predicted voxels are reachable from a view: inside the images,

@@ -9,14 +9,14 @@
 mod bound;
 mod index;
 mod samples;
+mod view;
 
 pub use bound::least_views;
 
 use index::Index;
 use rayon::prelude::*;
-use samples::Sample;
+use view::View;
 
-use super::raster::Visibility;
 use super::{Observation, Simulator};
 use crate::geometry::{Bounds, Camera, Point, Pose};
 
@@ -107,66 +107,6 @@ impl Coverage {
     /// Covered samples over observable ones; `None` where nothing is observable.
     pub fn share(&self) -> Option<f64> {
         (!self.points.is_empty()).then(|| self.covered as f64 / self.points.len() as f64)
-    }
-}
-
-/// A candidate view and what it shows.
-struct View<'a> {
-    drawn: Visibility<'a>,
-    camera: &'a Camera,
-    world_from_camera: Pose,
-}
-
-impl<'a> View<'a> {
-    fn of(simulator: &'a Simulator, camera: &'a Camera, world_from_camera: &Pose) -> Self {
-        Self {
-            drawn: simulator.visibility(camera, world_from_camera),
-            camera,
-            world_from_camera: *world_from_camera,
-        }
-    }
-
-    fn shows(&self, sample: &Sample, near: f64) -> bool {
-        let eye = Point::from(self.world_from_camera.translation.vector);
-        if (eye - sample.at).dot(&sample.normal) <= 0.0 {
-            return false;
-        }
-        let at = self.world_from_camera.inverse_transform_point(&sample.at);
-        let image = &self.camera.depth;
-        if at.z <= near {
-            return false;
-        }
-        let (u, v) = (image.fx * at.x / at.z + image.cx, image.fy * at.y / at.z + image.cy);
-        let (du, dv) = (image.fx * near / (at.z - near), image.fy * near / (at.z - near));
-        let columns = window(u, du, image.width);
-        let rows = window(v, dv, image.height);
-        rows.into_iter()
-            .any(|v| columns.clone().any(|u| self.pixel_shows(u, v, &at, sample, near)))
-    }
-
-    /// Whether a pixel reads within `near` of a sample at `at` in camera axes.
-    fn pixel_shows(&self, u: usize, v: usize, at: &Point, sample: &Sample, near: f64) -> bool {
-        let k = v * self.camera.depth.width as usize + u;
-        let Some(depth) = self.drawn.depth(k).map(f64::from) else {
-            return false;
-        };
-        let ray = self.camera.depth.ray(u as f64 + 0.5, v as f64 + 0.5);
-        self.camera.range.contains(depth)
-            && (ray * depth - at.coords).norm_squared() <= near * near
-            && self.drawn.triangle(k).is_some_and(|(triangle, front)| {
-                front && self.drawn.mesh.vector_area(triangle as usize).dot(&sample.normal) > 0.0
-            })
-    }
-}
-
-/// Pixels whose centres lie within `reach` of an image coordinate.
-fn window(middle: f64, reach: f64, size: u32) -> std::ops::Range<usize> {
-    let first = (middle - 0.5 - reach).ceil().max(0.0);
-    let last = (middle - 0.5 + reach).floor().min(f64::from(size) - 1.0);
-    if first <= last {
-        first as usize..last as usize + 1
-    } else {
-        0..0
     }
 }
 

@@ -136,12 +136,16 @@ fn verdict(end: &End, object: &str) -> String {
             format!("contradiction  {object} fits no class of the library\n  {feature}: {evidence}")
         }
         ("exhausted", _) => format!(
-            "exhausted   no view can gain anything, and the goal is not reached (likeliest class p = {:.3})",
-            end.confidence
+            "exhausted   no view can gain anything, and the goal is not reached ({})",
+            likeliest(end)
         ),
-        (outcome, _) => format!(
-            "{outcome}  the limit of views is used up (likeliest class p = {:.3})",
-            end.confidence
-        ),
+        (outcome, _) => format!("{outcome}  the limit of views is used up ({})", likeliest(end)),
+    }
+}
+
+fn likeliest(end: &End) -> String {
+    match &end.class {
+        Some(class) => format!("class {class}, p = {:.3}", end.confidence),
+        None => format!("no class is certain, the likeliest has p = {:.3}", end.confidence),
     }
 }

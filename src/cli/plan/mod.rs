@@ -1,5 +1,6 @@
 //! `vpl plan`: the closed loop in the built-in simulator.
 
+mod outputs;
 mod record;
 mod resume;
 mod stage;
@@ -57,10 +58,10 @@ pub(crate) struct Plan {
     /// Print what would be run, and stop.
     #[arg(long)]
     dry_run: bool,
-    /// Write the run log (JSON Lines).
+    /// Write the run log (JSON Lines); `-` is standard output.
     #[arg(long, value_name = "RUN.jsonl")]
     log: Option<PathBuf>,
-    /// Write the map as an OctoMap file.
+    /// Write the map as an OctoMap file; `-` is standard output.
     #[arg(long, value_name = "OUT.bt")]
     map: Option<PathBuf>,
     /// Repeat the views of a run log, then go on.
@@ -101,6 +102,7 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
         .noise
         .parse()
         .map_err(|error| Failure::Usage(format!("{error}")))?;
+    outputs::check(options)?;
     let compiled = lang::compile(&options.file, &Disk);
     report(&render(&compiled.diagnostics, &compiled.sources, human()))?;
     let Some(rules) = &compiled.rules else {
@@ -141,13 +143,19 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
         Some(path) => resume::views(path, &head, start)?,
         None => Vec::new(),
     };
-    // The log is opened before the first view: a run is not lost to a wrong path.
+    // Before the first view: a run is not lost to a wrong path.
+    options.map.as_deref().map_or(Ok(()), record::writable)?;
     let mut recorder = Recorder::begin(options.log.as_deref(), head)?;
     let end = drive(&mut session, &stage, noise, options.seed, start, &logged, &mut recorder)?;
+    let summary = show::summary(recorder.records(), &stage.name);
+    if outputs::use_stdout(options) {
+        report(&summary)?;
+    } else {
+        print(&summary)?;
+    }
     if let Some(path) = &options.map {
         record::write_map(path, session.map())?;
     }
-    print(&show::summary(recorder.records(), &stage.name))?;
     Ok(if end == plan::Outcome::Goal {
         Outcome::Done
     } else {

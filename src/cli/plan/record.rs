@@ -1,7 +1,7 @@
 //! What a run leaves: the log, a line a view, the map.
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::time::Instant;
 
@@ -15,7 +15,7 @@ use crate::show::view_line;
 
 /// Writes each record as it comes, and shows a line a view.
 pub(super) struct Recorder {
-    log: Option<(File, String)>,
+    log: Option<(Box<dyn Write>, String)>,
     records: Vec<Record>,
     last: Instant,
     ms: Milliseconds,
@@ -93,9 +93,10 @@ impl Recorder {
 
     /// One write a line, so that an interrupted run leaves whole lines.
     fn write(&mut self, record: Record) -> Result<(), Failure> {
-        if let Some((file, name)) = &mut self.log {
+        if let Some((out, name)) = &mut self.log {
             let line = record.to_line() + "\n";
-            file.write_all(line.as_bytes())
+            out.write_all(line.as_bytes())
+                .and_then(|()| out.flush())
                 .map_err(|error| Failure::Write(name.clone(), error))?;
         }
         self.records.push(record);
@@ -111,17 +112,37 @@ impl Recorder {
 
 /// Writes the map as an OctoMap binary tree.
 pub(super) fn write_map(path: &Path, map: &Map) -> Result<(), Failure> {
-    let (file, name) = create(path)?;
-    let mut out = BufWriter::new(file);
+    let (out, name) = create(path)?;
+    let mut out = BufWriter::new(out);
     write_bt(map, &mut out)
         .and_then(|()| out.flush())
         .map_err(|error| Failure::Write(name, error))
 }
 
-fn create(path: &Path) -> Result<(File, String), Failure> {
-    let name = format!("`{}`", path.display());
-    match File::create(path) {
-        Ok(file) => Ok((file, name)),
-        Err(error) => Err(Failure::Write(name, error)),
+/// Whether a file can be written; what it holds is kept.
+pub(super) fn writable(path: &Path) -> Result<(), Failure> {
+    if is_stdout(path) {
+        return Ok(());
     }
+    let opened = OpenOptions::new().append(true).create(true).open(path);
+    opened.map(drop).map_err(|error| Failure::Write(quoted(path), error))
+}
+
+/// Whether a path is `-`, standard output.
+pub(super) fn is_stdout(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+fn create(path: &Path) -> Result<(Box<dyn Write>, String), Failure> {
+    if is_stdout(path) {
+        return Ok((Box::new(io::stdout()), "standard output".into()));
+    }
+    match File::create(path) {
+        Ok(file) => Ok((Box::new(file), quoted(path))),
+        Err(error) => Err(Failure::Write(quoted(path), error)),
+    }
+}
+
+fn quoted(path: &Path) -> String {
+    format!("`{}`", path.display())
 }

@@ -44,14 +44,14 @@ pub(super) fn set(options: &Plan, compiled: &Compilation, rules: &RuleSet, task:
     };
     let Some(name) = options.object.as_deref() else {
         return match objects().next() {
-            Some((scene, object)) => of_scene(scene, object, compiled, task),
+            Some((scene, object)) => of_scene(scene, object, options, compiled, task),
             None => Err(Failure::Usage(
                 "the file has no scene with an object; name a mesh with `--object part.stl`".into(),
             )),
         };
     };
     if let Some((scene, object)) = objects().find(|(_, o)| o.name == name) {
-        return of_scene(scene, object, compiled, task);
+        return of_scene(scene, object, options, compiled, task);
     }
     if Path::new(name).extension().is_none() {
         let known: Vec<String> = objects().map(|(_, o)| format!("`{}`", o.name)).collect();
@@ -64,7 +64,13 @@ pub(super) fn set(options: &Plan, compiled: &Compilation, rules: &RuleSet, task:
     of_mesh(name, options, rules.scenes.first(), task)
 }
 
-fn of_scene(scene: &Scene, object: &SceneObject, compiled: &Compilation, task: &Task) -> Set {
+fn of_scene(scene: &Scene, object: &SceneObject, options: &Plan, compiled: &Compilation, task: &Task) -> Set {
+    if options.units.is_some() || options.up.is_some() {
+        return Err(Failure::Usage(format!(
+            "`--units` and `--up` are for a mesh file, and `{}` is an object of the scene",
+            object.name
+        )));
+    }
     let folder = compiled
         .sources
         .get(crate::lang::FileId(0))
@@ -75,14 +81,16 @@ fn of_scene(scene: &Scene, object: &SceneObject, compiled: &Compilation, task: &
         Err(error) => return Ok(Err(unusable(&error, object.place))),
     };
     warn(simulator.mesh(), &object.name)?;
-    Ok(sized(
-        Stage {
-            name: object.name.clone(),
-            simulator,
-            place: object.place,
-        },
-        task,
-    ))
+    let stage = Stage {
+        name: object.name.clone(),
+        simulator,
+        place: object.place,
+    };
+    let help = match object.shape.primitive.as_str() {
+        "mesh" => units_that_fit(&stage, task, "units: ", " in the scene"),
+        _ => None,
+    };
+    sized(stage, task, help)
 }
 
 /// A mesh of the user's, upright, the centre of its box at the centre of the space.
@@ -105,14 +113,13 @@ fn of_mesh(name: &str, options: &Plan, scene: Option<&Scene>, task: &Task) -> Se
         }),
     };
     let simulator = Simulator::from_mesh(part, world_from_object, backdrop, &task.space);
-    Ok(sized(
-        Stage {
-            name: name.to_owned(),
-            simulator,
-            place: task.place,
-        },
-        task,
-    ))
+    let stage = Stage {
+        name: name.to_owned(),
+        simulator,
+        place: task.place,
+    };
+    let help = units_that_fit(&stage, task, "--units ", "");
+    sized(stage, task, help)
 }
 
 fn to_centre(part: &Mesh, centre: &Point) -> Pose {
@@ -121,26 +128,71 @@ fn to_centre(part: &Mesh, centre: &Point) -> Pose {
 }
 
 /// Refuses what is absurdly large or small for the space: its units are wrong.
-fn sized(stage: Stage, task: &Task) -> Result<Stage, Diagnostic> {
+/// Warns of what only reaches out of it.
+fn sized(stage: Stage, task: &Task, help: Option<String>) -> Set {
     let (object, space) = (stage.simulator.bounds(), task.space.bounds());
-    let (largest, room) = (object.size().max(), space.size().min());
-    let problem = if largest > 2.0 * room {
-        "far larger than"
-    } else if largest < 3.0 * task.space.voxel {
-        "hardly a speck in"
-    } else {
-        return Ok(stage);
+    let size = object.size();
+    let Some(problem) = misfit(size.max(), task) else {
+        if (0..3).any(|k| object.max[k] < space.min[k] || space.max[k] < object.min[k]) {
+            let message = format!("`{}` stands outside the space of task `{}`", stage.name, task.name);
+            return Ok(Err(Diagnostic::at_place(Code::E0504, stage.place, message)
+                .help("place it in the space: `at` its centre is a start")));
+        }
+        if !(space.contains(&object.min) && space.contains(&object.max)) {
+            let text = "reaches out of the space; only what lies inside is modelled";
+            report(&format!("warning: `{}` {text}\n", stage.name))?;
+        }
+        return Ok(Ok(stage));
     };
-    let [x, y, z] = [object.size().x, object.size().y, object.size().z];
     let message = format!(
-        "`{}` is {x:.4} × {y:.4} × {z:.4} m, {problem} the space of task `{}`",
-        stage.name, task.name
+        "`{}` is {} × {} × {} m, {problem} the space of task `{}`",
+        stage.name,
+        brief(size.x),
+        brief(size.y),
+        brief(size.z),
+        task.name
     );
-    let help = format!(
-        "the space is {room:.3} m across with voxels of {} mm; if the mesh is in millimetres, say so (`--units mm`, or `units: mm` in the scene)",
-        task.space.voxel * 1000.0
-    );
-    Err(Diagnostic::at_place(Code::E0504, stage.place, message).help(help))
+    let help = help.unwrap_or_else(|| {
+        format!(
+            "the space is {} m across with voxels of {} mm",
+            brief(space.size().min()),
+            task.space.voxel * 1000.0
+        )
+    });
+    Ok(Err(Diagnostic::at_place(Code::E0504, stage.place, message).help(help)))
+}
+
+/// What is wrong with an object of a largest extent, if anything.
+fn misfit(extent: f64, task: &Task) -> Option<&'static str> {
+    if extent > 2.0 * task.space.size.min() {
+        Some("far larger than")
+    } else if extent < 3.0 * task.space.voxel {
+        Some("hardly a speck in")
+    } else {
+        None
+    }
+}
+
+/// The units in which a mesh would fit, whatever they are now.
+fn units_that_fit(stage: &Stage, task: &Task, before: &str, after: &str) -> Option<String> {
+    let extent = stage.simulator.bounds().size().max();
+    let all = [("mm", 0.001), ("cm", 0.01), ("in", 0.0254), ("m", 1.0)];
+    let fits = |factor: f64| misfit(extent * factor, task).is_none();
+    let any: Vec<String> = all
+        .iter()
+        .filter(|(_, to)| all.iter().any(|(_, from)| fits(to / from)))
+        .map(|(unit, _)| format!("`{before}{unit}`"))
+        .collect();
+    (!any.is_empty()).then(|| format!("is it in other units? it would fit with {}{after}", any.join(" or ")))
+}
+
+/// Metres to a tenth of a millimetre, or a power of ten where that is long.
+fn brief(metres: f64) -> String {
+    if (1e-4..1e5).contains(&metres) {
+        format!("{metres:.4}")
+    } else {
+        format!("{metres:.1e}")
+    }
 }
 
 /// The views that stand inside the object, as a diagnostic.

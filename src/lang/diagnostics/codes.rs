@@ -70,7 +70,7 @@ codes! {
     E0501 "a backdrop that does not enclose the views"
     E0502 "a marker without a place or a print"
     E0503 "a view inside an object"
-    E0504 "a mesh that cannot be used"
+    E0504 "an object that cannot be shown"
     W0401 "an attribute that has no value at first"
     W0402 "a feature that no class has"
     W0403 "a feature that every class has"

@@ -151,8 +151,9 @@ impl Soup {
     /// Units and up axis: stated, or the format's own.
     fn placement(&self, format: Format, options: &MeshOptions) -> Result<(Units, Axis), MeshError> {
         let native = (format == Format::Gltf).then_some((Units::Metres, Axis::Y));
-        let extents =
-            Bounds::around(self.corners.iter().flatten()).ok_or_else(|| MeshError::Empty(self.path.clone()))?;
+        let extents = Bounds::around(self.corners.iter().flatten())
+            .filter(|extents| extents.size().max() > 0.0)
+            .ok_or_else(|| MeshError::Empty(self.path.clone()))?;
         let path = || self.path.clone();
         let units = options
             .units
