@@ -333,7 +333,10 @@ fn a_prism_is_found_to_be_one_and_seen_all_over() {
         assert!(updates.len() <= 8, "{method} from {start} took {}", updates.len());
         let last = updates.last().unwrap();
         assert_eq!([0, 1, 2, 3, 4].map(|f| last.features[f].state.code()), [1, 1, 3, 1, 3]);
-        let measured = last.features[1].instances.iter().filter(|i| i.state == Existence::Detected);
+        let measured = last.features[1]
+            .instances
+            .iter()
+            .filter(|i| i.state == Existence::Detected);
         assert_eq!(measured.count(), 4, "every side is measured once");
     }
 }
