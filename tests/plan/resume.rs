@@ -69,7 +69,8 @@ fn the_log_of_another_run_is_refused_and_kept() {
         ),
         (&[SOLIDS, "--method", "random"], "its method is `gn`"),
         (&[SOLIDS, "--noise", "structured_light"], "its noise is `none`"),
-        (&[SOLIDS, "--start", "3"], "say `--start"),
+        (&[SOLIDS, "--max-views", "3"], "its limit of views is `2`"),
+        (&[SOLIDS, "--max-views", "2", "--start", "3"], "say `--start"),
         (&[TANKS], "its rule set is"),
     ] {
         resume(options).expect(1, &["error[E0602]", words]);

@@ -145,7 +145,7 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
     };
     // Before the first view: a run is not lost to a wrong path.
     options.map.as_deref().map_or(Ok(()), record::writable)?;
-    let mut recorder = Recorder::begin(options.log.as_deref(), head)?;
+    let mut recorder = Recorder::begin(options.log.as_deref(), head, logged.len())?;
     let end = drive(&mut session, &stage, noise, options.seed, start, &logged, &mut recorder)?;
     let summary = show::summary(recorder.records(), &stage.name);
     if outputs::use_stdout(options) {

@@ -2,7 +2,7 @@
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -15,7 +15,7 @@ use crate::show::view_line;
 
 /// Writes each record as it comes, and shows a line a view.
 pub(super) struct Recorder {
-    log: Option<(Box<dyn Write>, String)>,
+    log: Option<Log>,
     records: Vec<Record>,
     last: Instant,
     ms: Milliseconds,
@@ -23,9 +23,11 @@ pub(super) struct Recorder {
 }
 
 impl Recorder {
-    /// Opens the log and writes its first line.
-    pub fn begin(path: Option<&Path>, start: log::Start) -> Result<Self, Failure> {
-        let log = path.map(create).transpose()?;
+    /// Opens the log and writes its first line. A run that repeats `repeated`
+    /// logged views writes nothing before it is past them: the log that it
+    /// resumes may be the one that it writes.
+    pub fn begin(path: Option<&Path>, start: log::Start, repeated: usize) -> Result<Self, Failure> {
+        let log = path.map(|path| Log::begin(path, repeated)).transpose()?;
         // Hidden by itself where standard error is no terminal.
         let bar = ProgressBar::new_spinner().with_style(ProgressStyle::default_spinner());
         let mut recorder = Self {
@@ -93,11 +95,8 @@ impl Recorder {
 
     /// One write a line, so that an interrupted run leaves whole lines.
     fn write(&mut self, record: Record) -> Result<(), Failure> {
-        if let Some((out, name)) = &mut self.log {
-            let line = record.to_line() + "\n";
-            out.write_all(line.as_bytes())
-                .and_then(|()| out.flush())
-                .map_err(|error| Failure::Write(name.clone(), error))?;
+        if let Some(log) = &mut self.log {
+            log.write(&record)?;
         }
         self.records.push(record);
         Ok(())
@@ -107,6 +106,52 @@ impl Recorder {
         let n = self.records.iter().filter(|r| matches!(r, Record::View(_))).count() + 1;
         self.bar.set_message(format!("view {n}: {doing}"));
         self.bar.tick();
+    }
+}
+
+/// A log that is opened once there is more to write than what is repeated.
+struct Log {
+    path: PathBuf,
+    out: Option<(Box<dyn Write>, String)>,
+    /// Views that are still to be repeated.
+    repeated: usize,
+    /// Lines that are not written yet.
+    waiting: String,
+}
+
+impl Log {
+    fn begin(path: &Path, repeated: usize) -> Result<Self, Failure> {
+        let mut log = Self {
+            path: path.to_owned(),
+            out: None,
+            repeated,
+            waiting: String::new(),
+        };
+        if repeated == 0 {
+            log.out = Some(create(path)?);
+        } else {
+            writable(path)?;
+        }
+        Ok(log)
+    }
+
+    fn write(&mut self, record: &Record) -> Result<(), Failure> {
+        self.waiting += &(record.to_line() + "\n");
+        if matches!(record, Record::View(_)) {
+            self.repeated = self.repeated.saturating_sub(1);
+        }
+        if self.repeated > 0 && !matches!(record, Record::End(_)) {
+            return Ok(());
+        }
+        if self.out.is_none() {
+            self.out = Some(create(&self.path)?);
+        }
+        let Some((out, name)) = &mut self.out else {
+            return Ok(());
+        };
+        let written = out.write_all(self.waiting.as_bytes()).and_then(|()| out.flush());
+        self.waiting.clear();
+        written.map_err(|error| Failure::Write(name.clone(), error))
     }
 }
 

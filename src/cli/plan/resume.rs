@@ -54,6 +54,7 @@ fn difference(then: &Start, now: &Start) -> Option<String> {
         ("method", then.method.clone(), now.method.clone()),
         ("seed", then.seed.to_string(), now.seed.to_string()),
         ("noise", then.noise.clone(), now.noise.clone()),
+        ("limit of views", then.limit.to_string(), now.limit.to_string()),
     ];
     let (what, then, now) = pairs.into_iter().find(|(_, a, b)| a != b)?;
     Some(format!(
