@@ -11,7 +11,8 @@
 use std::process::ExitCode;
 
 use rayon::prelude::*;
-use vpl::lang::{self, ReadFailure, World};
+use vpl::cli::Disk;
+use vpl::lang;
 use vpl::plan::{ClosedLoop, Decision, End, Options, Outcome, Part, Phase, Session, Simulated};
 use vpl::rules::{RuleSet, Scene, SceneObject, Task};
 use vpl::sense::{Coverage, Noise, Simulator};
@@ -204,13 +205,5 @@ fn wrong(runs: &[(&str, &Run)], recognition: bool) -> usize {
         runs.iter().filter(is_wrong).count()
     } else {
         0
-    }
-}
-
-struct Disk;
-
-impl World for Disk {
-    fn read(&self, path: &str) -> Result<Vec<u8>, ReadFailure> {
-        std::fs::read(path).map_err(|error| ReadFailure::Failed(error.to_string()))
     }
 }

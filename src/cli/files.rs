@@ -9,7 +9,7 @@ use crate::lang::{Format, MOST_BYTES, ReadFailure, World};
 pub(crate) const STDIN: &str = "-";
 
 /// The file system; the path `-` is standard input.
-pub(crate) struct Disk;
+pub struct Disk;
 
 impl World for Disk {
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadFailure> {

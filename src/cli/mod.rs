@@ -5,6 +5,8 @@ mod compile;
 mod files;
 mod plan;
 
+pub use files::Disk;
+
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;

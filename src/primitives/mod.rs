@@ -11,6 +11,7 @@ mod detectors;
 mod measures;
 mod points;
 mod predictors;
+mod reference;
 mod shapes;
 mod views;
 
@@ -19,6 +20,7 @@ pub use attributes::{Attribute, attributes};
 pub use cameras::camera;
 pub use detectors::{Envelope, ImageKind, envelope, printed_edge};
 pub use predictors::{Strength, strength};
+pub use reference::reference;
 pub use views::{MOST_VIEWS, poses};
 
 use crate::rules::{FeatureKind, Value};
