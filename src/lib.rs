@@ -4,6 +4,9 @@
 //! parsed, checked and lowered; right of it a planner runs the rule set on
 //! observations. See `ARCHITECTURE.md`.
 
+#![forbid(unsafe_code)]
+#![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::todo)]
+
 pub mod cli;
 pub mod detect;
 pub mod geometry;

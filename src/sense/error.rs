@@ -30,7 +30,7 @@ pub enum SceneError {
     #[error("`{0}` is not a shape; expected `prism`, `pyramid`, `tank` or `mesh`")]
     UnknownShape(String),
     /// A marker that cannot be printed.
-    #[error("the marker `{text}` cannot be printed: {reason}")]
+    #[error("the marker `{text}` cannot be shown: {reason}")]
     Marker {
         /// Its text.
         text: String,

@@ -9,7 +9,7 @@ use super::noise::Noise;
 use super::raster::{self, Visibility};
 use super::{DepthImage, Mesh, Observation, shapes};
 use crate::geometry::{Bounds, Camera, Point, Pose};
-use crate::rules::{Backdrop, SceneObject, Space};
+use crate::rules::{Backdrop, Marker, SceneObject, Space};
 
 /// A scene that can be observed from anywhere.
 #[derive(Clone, Debug)]
@@ -17,6 +17,27 @@ pub struct Simulator {
     mesh: Mesh,
     backdrop: Option<Backdrop>,
     space: Space,
+}
+
+/// How far a print must stand out of the surface behind it, metres.
+const PROUD: f64 = 1e-4;
+
+/// Refuses a marker that the object itself hides: flush with its surface,
+/// under it, or printed on its inside. It would silently never be seen.
+fn shows(bare: &Mesh, marker: &Marker) -> Result<(), SceneError> {
+    let steps = [-0.45, 0.0, 0.45];
+    for (across, up) in steps.iter().flat_map(|x| steps.map(|y| (x * marker.size, y * marker.size))) {
+        for out in [-PROUD, 5.0 * PROUD] {
+            let p = marker.object_from_marker * Point::new(across, up, out);
+            if bare.bounds().contains(&p) && bare.winding_number(&p) > 0.5 {
+                return Err(SceneError::Marker {
+                    text: marker.text.clone(),
+                    reason: "the object's own surface hides it; place it at least 1 mm outside, facing away".into(),
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 impl Simulator {
@@ -32,7 +53,9 @@ impl Simulator {
         base: &Path,
     ) -> Result<Self, SceneError> {
         let mut mesh = shapes::mesh(&object.shape, base)?;
+        let bare = mesh.clone();
         for marker in &object.markers {
+            shows(&bare, marker)?;
             mesh.append(shapes::plate(marker)?);
         }
         Ok(Self::from_mesh(mesh, object.world_from_object, backdrop, space))

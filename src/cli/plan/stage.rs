@@ -220,6 +220,7 @@ pub(super) fn views_inside(stage: &Stage, session: &Session) -> Option<Diagnosti
 fn unusable(error: &SceneError, place: Place) -> Diagnostic {
     match error {
         SceneError::Mesh(error) => unreadable(error, place),
+        SceneError::Marker { .. } => Diagnostic::at_place(Code::E0502, place, error.to_string()),
         other => Diagnostic::at_place(Code::E0309, place, other.to_string()),
     }
 }

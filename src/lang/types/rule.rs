@@ -230,7 +230,7 @@ impl<'a> Checker<'a> {
                             feature.family
                         ),
                     )
-                    .help("add what holds until then: `… else 300 mm`"),
+                    .help("add what holds until then after `else`, of the same type: a length for a height, a point for an apex"),
                 );
             }
             ExprKind::Else(a, b) => {
