@@ -21,13 +21,18 @@ pub struct Simulator {
 
 /// How far a print must stand out of the surface behind it, metres.
 const PROUD: f64 = 1e-4;
+/// How much room a print needs in front of it, metres.
+const ROOM: f64 = 5e-3;
 
 /// Refuses a marker that the object itself hides: flush with its surface,
 /// under it, or printed on its inside. It would silently never be seen.
 fn shows(bare: &Mesh, marker: &Marker) -> Result<(), SceneError> {
     let steps = [-0.45, 0.0, 0.45];
-    for (across, up) in steps.iter().flat_map(|x| steps.map(|y| (x * marker.size, y * marker.size))) {
-        for out in [-PROUD, 5.0 * PROUD] {
+    for (across, up) in steps
+        .iter()
+        .flat_map(|x| steps.map(|y| (x * marker.size, y * marker.size)))
+    {
+        for out in [-PROUD, ROOM] {
             let p = marker.object_from_marker * Point::new(across, up, out);
             if bare.bounds().contains(&p) && bare.winding_number(&p) > 0.5 {
                 return Err(SceneError::Marker {

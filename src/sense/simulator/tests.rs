@@ -98,3 +98,33 @@ fn inside_is_told_even_where_parts_overlap() {
         assert_eq!(scene.contains(&Point::from(p)), inside, "{p:?}");
     }
 }
+
+#[test]
+fn a_print_must_stand_out_of_the_surface_and_face_away() {
+    let cube = || {
+        call(
+            "prism",
+            &[("sides", count(4)), ("radius", mm(200.0)), ("height", mm(200.0))],
+        )
+    };
+    // The top is at z = 100 mm.
+    for (height, out, shown) in [
+        (101.0, 1.0, true),
+        (100.0, 1.0, false),
+        (90.0, 1.0, false),
+        (101.0, -1.0, false),
+    ] {
+        let marker = Marker {
+            text: "top".into(),
+            size: 0.1,
+            object_from_marker: frame_facing(Point::new(0.0, 0.0, height / 1e3), Vector::z() * out),
+        };
+        let space = Space {
+            centre: Point::origin(),
+            size: Vector::repeat(1.0),
+            voxel: 0.01,
+        };
+        let simulator = Simulator::new(&object(cube(), vec![marker]), None, &space, Path::new("."));
+        assert_eq!(simulator.is_ok(), shown, "at {height} mm, facing {out}");
+    }
+}
