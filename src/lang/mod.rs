@@ -23,7 +23,7 @@ pub use world::{MOST_BYTES, Memory, ReadFailure, World};
 use crate::rules::RuleSet;
 
 /// The language edition that this build reads.
-pub const EDITION: u32 = 1;
+pub const EDITION: u32 = crate::rules::LANGUAGE;
 
 /// What compiling a program gave.
 #[derive(Debug)]
