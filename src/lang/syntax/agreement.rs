@@ -11,7 +11,21 @@ const PROGRAMS: &[&str] = &[
     include_str!("../../../examples/tanks/tanks.vpl"),
     include_str!("../../../stdlib/std/cameras.vpl"),
     include_str!("../../../stdlib/std/solids.vpl"),
+    TEMPLATES,
 ];
+const TEMPLATES: &str = "vpl 1
+use \"boxes.vpl\".{tagged_box, crate_of}
+let far(face: polygon, by: length = 2 * 100 mm,
+        at: [number] = [1, 2]) = behind(face: face, depth: by)
+library pair(width: length, prefix: text = \"b\") {
+  feature code[1..2] : marker
+  layout flat { code[1] at [width / 2, 0 mm, 0 mm] facing +x }
+}
+library both {
+  use pair(width: 300 mm); use crate_of
+  class a { code }
+}
+";
 const SCRAPS: &[&str] = &[
     "",
     " ",
@@ -46,6 +60,8 @@ const SCRAPS: &[&str] = &[
     "\r\n",
     "é",
     "{i}",
+    "use pair(width: 1 m)",
+    "(a: length = 1)",
 ];
 
 /// A program with some pieces cut out and scraps put in.
