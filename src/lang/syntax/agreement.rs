@@ -12,6 +12,7 @@ const PROGRAMS: &[&str] = &[
     include_str!("../../../stdlib/std/cameras.vpl"),
     include_str!("../../../stdlib/std/solids.vpl"),
     TEMPLATES,
+    FACTS,
 ];
 const TEMPLATES: &str = "vpl 1
 use \"boxes.vpl\".{tagged_box, crate_of}
@@ -26,6 +27,26 @@ library both {
   class a { code }
 }
 ";
+const FACTS: &str = r#"vpl 1
+test "every statement" {
+  library tanks
+  given code[7] detected, code[4] absent
+  given bottom = polygon([[0 m, 0 m, 0 m], [1 m, 0 m, 0 m], [0 m, 1 m, 0 m]]),
+    code[1] at [0 m, 0 m, 0 m] facing +x
+  expect classes tk5, tk9
+  expect class tk9 50 % within 1 %
+  expect confident; expect not contradicted
+  expect next code[3], code[4]
+  expect rules 49
+  expect rule bottom -> side predicts 4
+  expect code[3] weight 0.92 within 0.01
+  expect side predicted 4
+  expect code[2] at [0 m, 0 m, 0 m] facing -x within 1 mm
+  expect code[1] absent
+  expect above(bottom: face, height: 1 m) = [0 m, 0 m, 1 m]
+  expect sphere(radius: 1 m, count: 64) count 64
+}
+"#;
 const SCRAPS: &[&str] = &[
     "",
     " ",
@@ -62,10 +83,17 @@ const SCRAPS: &[&str] = &[
     "{i}",
     "use pair(width: 1 m)",
     "(a: length = 1)",
+    "test \"t\" {",
+    "given",
+    "expect",
+    "detected",
+    "within",
+    "count",
+    "not",
 ];
 
 /// A program with some pieces cut out and scraps put in.
-fn mutated() -> impl Strategy<Value = String> {
+pub(super) fn mutated() -> impl Strategy<Value = String> {
     let change = (any::<prop::sample::Index>(), 0_usize..12, prop::sample::select(SCRAPS));
     (prop::sample::select(PROGRAMS), prop::collection::vec(change, 0..4)).prop_map(|(program, changes)| {
         let mut chars: Vec<char> = program.chars().collect();
@@ -79,7 +107,7 @@ fn mutated() -> impl Strategy<Value = String> {
 }
 
 /// Tokens in any order.
-fn soup() -> impl Strategy<Value = String> {
+pub(super) fn soup() -> impl Strategy<Value = String> {
     prop::collection::vec(prop::sample::select(SCRAPS), 0..40).prop_map(|scraps| format!("vpl 1\n{}", scraps.join(" ")))
 }
 

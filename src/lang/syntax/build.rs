@@ -129,6 +129,7 @@ impl Builder<'_> {
             Rule::tolerant_library => Item::Library(self.library(pair)?),
             Rule::tolerant_task => Item::Task(self.task(pair)?),
             Rule::tolerant_scene => Item::Scene(self.scene(pair)?),
+            Rule::tolerant_test => Item::Test(self.test(pair)?),
             _ => {
                 self.bad(&pair);
                 return None;
@@ -141,7 +142,7 @@ impl Builder<'_> {
         let (mut path, mut words, mut names, mut grouped) = (None, Vec::new(), Vec::new(), false);
         for part in parts(pair) {
             match part.as_rule() {
-                Rule::text => path = Some(quoted(self, part)),
+                Rule::text => path = Some(quoted(self, part, "a file's path")),
                 Rule::use_group => {
                     grouped = true;
                     names.extend(parts(part).map(|p| name(self.file, &p)));

@@ -28,16 +28,16 @@ pub(super) fn integer(b: &mut Builder<'_>, pair: &Pair<'_, Rule>) -> u64 {
     })
 }
 
-/// The content of a text without holes.
-pub(super) fn quoted(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> Name {
+/// The content of a text without holes; `what` it is, in words.
+pub(super) fn quoted(b: &mut Builder<'_>, pair: Pair<'_, Rule>, what: &str) -> Name {
     let at = b.span(&pair);
     let mut text = String::new();
     for part in text_parts(b, pair) {
         match part {
             TextPart::Literal(literal) => text.push_str(&literal),
             TextPart::Hole(hole) => b.found.push(
-                Diagnostic::new(Code::E0110, hole.span, "a file's path has no `{…}`")
-                    .help("write the path out, `\\{` for a brace"),
+                Diagnostic::new(Code::E0110, hole.span, format!("{what} has no `{{…}}`"))
+                    .help("write it out, `\\{` for a brace"),
             ),
         }
     }

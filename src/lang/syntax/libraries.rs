@@ -83,7 +83,7 @@ impl Builder<'_> {
         })
     }
 
-    fn feature_ref(&mut self, pair: Pair<'_, Rule>) -> Option<FeatureRef> {
+    pub(super) fn feature_ref(&mut self, pair: Pair<'_, Rule>) -> Option<FeatureRef> {
         let whole = self.span(&pair);
         let mut parts = parts(pair);
         let title = name(self.file, &parts.next()?);
