@@ -11,11 +11,14 @@ mod expected;
 mod expressions;
 mod facts;
 mod guard;
+mod habits;
 mod libraries;
 mod recover;
+mod slips;
 mod tasks;
 mod tokens;
 pub mod tree;
+mod usage;
 
 use std::num::NonZeroUsize;
 use std::sync::Once;

@@ -13,6 +13,7 @@ mod forms;
 mod inclusion;
 mod layouts;
 mod library;
+mod mismatch;
 mod operators;
 mod parameters;
 mod references;
@@ -47,6 +48,7 @@ pub(super) fn check(program: &Program) -> (typed::Program, Vec<Diagnostic>) {
         parts_taken: 0,
         known_coverage: BTreeMap::new(),
         unknown: BTreeSet::new(),
+        unknown_arguments: BTreeMap::new(),
         found: Vec::new(),
     };
     checker.all_signatures();
@@ -76,6 +78,8 @@ struct Checker<'a> {
     known_coverage: BTreeMap<(DefinitionId, usize), bool>,
     /// Unknown names that were reported, each once a file.
     unknown: BTreeSet<(FileId, &'static str, String)>,
+    /// Unknown arguments by callee and name: which of `found` says so.
+    unknown_arguments: BTreeMap<(FileId, String, String), usize>,
     found: Vec<Diagnostic>,
 }
 

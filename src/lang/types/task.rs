@@ -187,9 +187,13 @@ impl<'a> Checker<'a> {
             exhausted: false,
         };
         for name in words {
-            let part = match self.one_of_words(name, "`goal`", &["confident", "exhausted"])? {
+            let part = match name.text.as_str() {
                 "confident" => &mut goal.confident,
-                _ => &mut goal.exhausted,
+                "exhausted" => &mut goal.exhausted,
+                _ => {
+                    self.no_goal(name);
+                    return None;
+                }
             };
             if std::mem::replace(part, true) {
                 let message = format!("`{}` stands twice in the goal", name.text);
@@ -197,6 +201,22 @@ impl<'a> Checker<'a> {
             }
         }
         Some(goal)
+    }
+
+    fn no_goal(&mut self, name: &tree::Name) {
+        let out = Diagnostic::new(Code::E0306, name.span, format!("`goal` cannot be `{}`", name.text));
+        let ours = match name.text.to_ascii_lowercase().as_str() {
+            "classify" | "recognise" | "recognize" | "identify" | "detect" | "class" => Some("confident"),
+            "reconstruct" | "explore" | "scan" | "inspect" | "cover" | "complete" | "model" => Some("exhausted"),
+            other => closest(other, ["confident", "exhausted"]),
+        };
+        let out = out.help(
+            "it is `confident` (the class is known), `exhausted` (no view can gain anything) or `confident and exhausted`",
+        );
+        self.report(match ours {
+            Some(ours) => out.fix(format!("write `{ours}`"), name.span, ours),
+            None => out,
+        });
     }
 
     fn one_of_words(&mut self, name: &tree::Name, what: &str, words: &[&'static str]) -> Option<&'static str> {
