@@ -5,7 +5,9 @@
 
 mod calls;
 mod colours;
+mod expectations;
 mod expressions;
+mod facts;
 mod features;
 mod forms;
 mod library;
@@ -14,6 +16,7 @@ mod references;
 mod rule;
 mod scene;
 mod scope;
+pub(super) mod stated;
 mod task;
 pub(super) mod typed;
 pub(super) mod units;
@@ -146,6 +149,7 @@ impl<'a> Checker<'a> {
         names::unique("library", each(library_name), &mut self.found);
         names::unique("task", each(task_name), &mut self.found);
         names::unique("scene", each(scene_name), &mut self.found);
+        names::unique("test", each(test_name), &mut self.found);
         for item in &file.items {
             if let tree::Item::Library(library) = item {
                 out.libraries.push(self.library(library));
@@ -155,6 +159,7 @@ impl<'a> Checker<'a> {
             match item {
                 tree::Item::Task(task) => out.tasks.extend(self.task(task, &out.libraries)),
                 tree::Item::Scene(scene) => out.scenes.push(self.scene(scene, &out.libraries)),
+                tree::Item::Test(test) => out.facts.push(self.fact(test, &out.libraries)),
                 _ => {}
             }
         }
@@ -189,6 +194,13 @@ fn task_name(item: &tree::Item) -> Option<&tree::Name> {
 fn scene_name(item: &tree::Item) -> Option<&tree::Name> {
     match item {
         tree::Item::Scene(scene) => Some(&scene.name),
+        _ => None,
+    }
+}
+
+fn test_name(item: &tree::Item) -> Option<&tree::Name> {
+    match item {
+        tree::Item::Test(test) => Some(&test.name),
         _ => None,
     }
 }
