@@ -9,6 +9,7 @@ mod completed_square;
 mod face;
 mod prism_over;
 mod pyramid_over;
+mod rectangle_by_marker;
 mod rectangle_on;
 mod rigid_marker;
 mod triangle_to;
@@ -31,6 +32,7 @@ type ValueOf = fn(&Arguments) -> Result<Option<Datum>, BadArgument>;
 
 const PREDICTORS: &[(&str, Predictor)] = &[
     ("rectangle_on", rectangle_on::predict),
+    ("rectangle_by_marker", rectangle_by_marker::predict),
     ("triangle_to", triangle_to::predict),
     ("completed_square", completed_square::predict),
     ("prism_over", prism_over::predict),

@@ -11,8 +11,22 @@ const PROGRAMS: &[&str] = &[
     include_str!("../../../examples/tanks/tanks.vpl"),
     include_str!("../../../stdlib/std/cameras.vpl"),
     include_str!("../../../stdlib/std/solids.vpl"),
+    TEMPLATES,
     FACTS,
 ];
+const TEMPLATES: &str = "vpl 1
+use \"boxes.vpl\".{tagged_box, crate_of}
+let far(face: polygon, by: length = 2 * 100 mm,
+        at: [number] = [1, 2]) = behind(face: face, depth: by)
+library pair(width: length, prefix: text = \"b\") {
+  feature code[1..2] : marker
+  layout flat { code[1] at [width / 2, 0 mm, 0 mm] facing +x }
+}
+library both {
+  use pair(width: 300 mm); use crate_of
+  class a { code }
+}
+";
 const FACTS: &str = r#"vpl 1
 test "every statement" {
   library tanks
@@ -67,6 +81,8 @@ const SCRAPS: &[&str] = &[
     "\r\n",
     "é",
     "{i}",
+    "use pair(width: 1 m)",
+    "(a: length = 1)",
     "test \"t\" {",
     "given",
     "expect",
@@ -77,7 +93,7 @@ const SCRAPS: &[&str] = &[
 ];
 
 /// A program with some pieces cut out and scraps put in.
-fn mutated() -> impl Strategy<Value = String> {
+pub(super) fn mutated() -> impl Strategy<Value = String> {
     let change = (any::<prop::sample::Index>(), 0_usize..12, prop::sample::select(SCRAPS));
     (prop::sample::select(PROGRAMS), prop::collection::vec(change, 0..4)).prop_map(|(program, changes)| {
         let mut chars: Vec<char> = program.chars().collect();
@@ -91,7 +107,7 @@ fn mutated() -> impl Strategy<Value = String> {
 }
 
 /// Tokens in any order.
-fn soup() -> impl Strategy<Value = String> {
+pub(super) fn soup() -> impl Strategy<Value = String> {
     prop::collection::vec(prop::sample::select(SCRAPS), 0..40).prop_map(|scraps| format!("vpl 1\n{}", scraps.join(" ")))
 }
 

@@ -37,6 +37,7 @@ fn members(start: Rule) -> Option<&'static [Rule]> {
             Rule::kw_test,
         ],
         Rule::entry_only => &[
+            Rule::kw_use,
             Rule::kw_feature,
             Rule::kw_class,
             Rule::kw_classes,
@@ -116,7 +117,7 @@ fn describe(expected: Rule) -> Option<(u8, String)> {
         Rule::field => "a name and its value",
         Rule::row => "a class and its row",
         Rule::place => "a feature and its place",
-        Rule::use_item => "`use`",
+        Rule::use_item | Rule::inclusion => "`use`",
         Rule::let_item => "`let`",
         Rule::library | Rule::library_of => "`library`",
         Rule::task => "`task`",

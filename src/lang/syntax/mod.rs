@@ -14,6 +14,7 @@ mod guard;
 mod libraries;
 mod recover;
 mod tasks;
+mod tokens;
 pub mod tree;
 
 use std::num::NonZeroUsize;
@@ -24,6 +25,8 @@ use pest_derive::Parser;
 
 use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
+
+pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.
 #[derive(Parser)]

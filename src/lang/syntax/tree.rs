@@ -62,6 +62,8 @@ pub struct Let {
 pub struct Parameter {
     pub name: Name,
     pub ty: TypeName,
+    /// What stands in where an argument is left out.
+    pub default: Option<Expr>,
 }
 
 #[derive(Clone, Debug)]
@@ -73,9 +75,14 @@ pub struct TypeName {
     pub span: Span,
 }
 
+/// `library solids { … }`, or a template: `library tagged_box(width: length) { … }`.
 #[derive(Clone, Debug)]
 pub struct Library {
     pub name: Name,
+    /// Those of a template, perhaps none; absent for a library of its own.
+    pub parameters: Option<Vec<Parameter>>,
+    /// Libraries that are taken over.
+    pub uses: Vec<Inclusion>,
     pub features: Vec<Feature>,
     pub classes: Vec<Class>,
     pub tables: Vec<ClassTable>,
@@ -85,6 +92,14 @@ pub struct Library {
     /// Whether every entry could be read.
     pub whole: bool,
     pub doc: String,
+}
+
+/// `use tagged_box(width: 300 mm)`.
+#[derive(Clone, Debug)]
+pub struct Inclusion {
+    pub library: Name,
+    pub arguments: Vec<Argument>,
+    pub span: Span,
 }
 
 /// `feature code[1..7] : marker many`.
