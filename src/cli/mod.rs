@@ -4,6 +4,7 @@ mod check;
 mod compile;
 mod files;
 mod plan;
+mod test;
 
 pub use files::Disk;
 
@@ -26,6 +27,7 @@ enum Verb {
     Check(check::Check),
     Compile(compile::Compile),
     Plan(Box<plan::Plan>),
+    Test(test::Test),
 }
 
 /// How a command ended; the numbers are its exit status.
@@ -66,6 +68,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Check(check) => check::run(&check),
         Verb::Compile(compile) => compile::run(&compile),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Test(test) => test::run(&test),
     };
     match outcome {
         Ok(outcome) => ExitCode::from(outcome as u8),

@@ -11,8 +11,10 @@ use crate::lang::types::units::last_digit;
 use crate::primitives::{Type, printed_edge};
 use crate::rules::{Call, Expectation, Expected, Expr, Fact, FeatureId, Given, Library, Value};
 
-/// Most tests of a file.
-const MOST_FACTS: usize = 10_000;
+/// Most expectations of a file.
+const MOST_EXPECTED: usize = 10_000;
+/// Most places that a test gives.
+const MOST_PLACES: usize = 64;
 /// Most combinations of measured instances and edges that the rules of a fact's
 /// library have.
 const MOST_COMBINATIONS: f64 = 10_000.0;
@@ -27,8 +29,13 @@ const USUAL_SHARE: f64 = 1e-9;
 impl<'a> Lowering<'a> {
     /// The facts whose library is whole; of others something was said already.
     pub(super) fn facts(&mut self, facts: &'a [stated::Fact], libraries: &[(Library, bool)]) -> Vec<Fact> {
-        if let Some(surplus) = facts.get(MOST_FACTS) {
-            let message = format!("a file of more than {MOST_FACTS} tests");
+        let before = facts.iter().scan(0, |n, fact| {
+            let before = *n;
+            *n += fact.expected.len().max(1);
+            Some((before, fact))
+        });
+        if let Some((_, surplus)) = before.last().filter(|(n, _)| *n > MOST_EXPECTED) {
+            let message = format!("the tests of this file expect more than {MOST_EXPECTED} things");
             let help = "put some of them into a file of their own";
             self.report(Diagnostic::new(Code::E0312, surplus.span, message).help(help));
             return Vec::new();
@@ -51,6 +58,14 @@ impl<'a> Lowering<'a> {
             .collect();
         let expected: Vec<_> = fact.expected.iter().map(|e| self.expectation(e, library)).collect();
         let given: Vec<(FeatureId, Given)> = given.into_iter().collect::<Option<_>>()?;
+        let places = given
+            .iter()
+            .filter(|(_, g)| matches!(g, Given::Face(_) | Given::Marker { .. }));
+        if places.count() > MOST_PLACES {
+            let message = format!("a test gives at most {MOST_PLACES} places");
+            self.report(Diagnostic::new(Code::E0312, fact.span, message));
+            return None;
+        }
         if let Some(library) = library
             && combinations(&given, library) > MOST_COMBINATIONS
         {

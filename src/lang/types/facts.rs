@@ -82,7 +82,7 @@ impl<'a> Checker<'a> {
                     let name = library.map_or("", |l| l.features[id.index()].name.as_str());
                     let out = Diagnostic::new(Code::E0702, supposed.span, format!("`{name}` is given twice"))
                         .related(first, "given first here");
-                    self.report(out.help("only a `many` feature has several instances, and none where it is absent"));
+                    self.report(out.help("say one thing of it; only a `many` feature has several places"));
                     continue;
                 }
                 all.push((id, given, supposed.span));
