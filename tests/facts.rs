@@ -205,6 +205,29 @@ fn values_are_compared_in_their_own_dimension() {
 }
 
 #[test]
+fn definitions_that_read_a_face_are_tried_on_a_written_one() {
+    let defined = |body: &str| {
+        vpl(
+            &["test", "-"],
+            &boxes(&format!(
+                "let lifted(face: polygon) = rectangle_on(on: face.base, dihedral: 90 deg, height: face.height)\n\
+             let middle(face: polygon) = face.centre\nlet top(face: polygon) = face.apex\n\
+             let rim(face: polygon) = face.edges\nlet out(face: polygon) = face.normal\n\
+             test \"it\" {{ {body} }}"
+            )),
+        )
+    };
+    let output = defined(
+        "expect lifted(square) = polygon([[0 m, 1 m, 0 m], [0 m, 0 m, 0 m], [0 m, 0 m, 1 m], [0 m, 1 m, 1 m]])
+         expect middle(square) = [500 mm, 500 mm, 0 m]
+         expect top(square) = [1 m, 1 m, 0 m]
+         expect rim(square) count 4
+         expect out(square) = -z",
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+}
+
+#[test]
 fn every_failure_is_shown_where_it_stands() {
     let output = vpl(
         &["test", "-"],

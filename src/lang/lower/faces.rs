@@ -19,6 +19,35 @@ pub(super) fn corners(call: &Call) -> Option<Vec<Point>> {
     items.iter().map(point).collect()
 }
 
+/// Whether a call is a face whose corners are all known.
+pub(super) fn is_written(call: &Call) -> bool {
+    call.primitive == "polygon" && corners(call).is_some()
+}
+
+/// An attribute of a written face.
+pub(super) fn attribute(call: &Call, name: &str) -> Option<Expr> {
+    let face = Polygon::new(corners(call)?)?;
+    let edge = |number: usize| {
+        let arguments = [
+            ("face".to_owned(), Expr::Call(call.clone())),
+            ("number".to_owned(), Expr::Value(Value::Count(number as u64))),
+        ];
+        Expr::Call(Call {
+            primitive: "edge_of".to_owned(),
+            arguments: arguments.into(),
+        })
+    };
+    Some(match name {
+        "edges" => Expr::List((1..=face.vertices().len()).map(edge).collect()),
+        "base" => edge(1),
+        "apex" => Expr::Value(Value::Point(face.apex().0)),
+        "height" => Expr::Value(Value::Length(face.apex().1)),
+        "centre" => Expr::Value(Value::Point(face.centre())),
+        "normal" => Expr::Value(Value::Direction(face.normal())),
+        _ => return None,
+    })
+}
+
 /// What is wrong with a `polygon` call.
 pub(super) fn check_polygon(call: &Call) -> Option<String> {
     let Some(Expr::List(items)) = call.arguments.get("corners") else {

@@ -1,7 +1,7 @@
 //! Tests: what they give and expect as plain data in SI units.
 
 use super::expand::Env;
-use super::{Lowering, faces};
+use super::{LoweredLibrary, Lowering, faces};
 use crate::geometry::{Polygon, Pose, frame_facing};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::Span;
@@ -28,7 +28,7 @@ const USUAL_SHARE: f64 = 1e-9;
 
 impl<'a> Lowering<'a> {
     /// The facts whose library is whole; of others something was said already.
-    pub(super) fn facts(&mut self, facts: &'a [stated::Fact], libraries: &[(Library, bool)]) -> Vec<Fact> {
+    pub(super) fn facts(&mut self, facts: &'a [stated::Fact], libraries: &[LoweredLibrary]) -> Vec<Fact> {
         let before = facts.iter().scan(0, |n, fact| {
             let before = *n;
             *n += fact.expected.len().max(1);
@@ -43,8 +43,8 @@ impl<'a> Lowering<'a> {
         let mut out = Vec::new();
         for fact in facts {
             let library = fact.library.and_then(|k| libraries.get(k));
-            if library.is_none_or(|(_, whole)| *whole) {
-                out.extend(self.fact(fact, library.map(|(library, _)| library)));
+            if library.is_none_or(|l| l.whole) {
+                out.extend(self.fact(fact, library.map(|l| &l.library)));
             }
         }
         out
@@ -105,7 +105,7 @@ impl<'a> Lowering<'a> {
     }
 
     fn marker_pose(&mut self, place: &'a stated::Place) -> Option<Pose> {
-        let (at, facing) = (self.value(&place.at), self.value(&place.facing));
+        let (at, facing) = (self.constant(&place.at), self.constant(&place.facing));
         match (at?, facing?) {
             (Value::Point(at), Value::Direction(facing)) => Some(frame_facing(at, facing)),
             _ => None,
@@ -254,12 +254,16 @@ impl<'a> Lowering<'a> {
         Some(tolerance * (1.0 + USUAL_SHARE))
     }
 
+    fn constant(&mut self, e: &'a typed::Expr) -> Option<Value> {
+        self.value(e, &Env::default())
+    }
+
     fn scalar(&mut self, e: &'a typed::Expr) -> Option<f64> {
-        self.value(e).as_ref().and_then(super::constants::scalar)
+        self.constant(e).as_ref().and_then(super::constants::scalar)
     }
 
     fn whole(&mut self, e: &'a typed::Expr) -> Option<u64> {
-        match self.value(e)? {
+        match self.constant(e)? {
             Value::Count(n) => Some(n),
             _ => None,
         }
