@@ -24,6 +24,7 @@ pub mod score;
 mod session;
 mod simulated;
 mod status;
+mod supposed;
 mod viewpoint;
 pub mod weights;
 mod world;
@@ -38,5 +39,6 @@ pub use report::{ContradictionReport, Decision, End, FeatureReport, InstanceRepo
 pub use session::{Options, Phase, Session};
 pub use simulated::Simulated;
 pub use status::{Contradiction, Status};
+pub use supposed::{Supposed, constant, constant_arguments, suppose};
 pub use viewpoint::Viewpoint;
 pub use world::World;
