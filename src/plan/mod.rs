@@ -24,6 +24,7 @@ pub mod score;
 mod session;
 mod simulated;
 mod status;
+pub mod trace;
 mod viewpoint;
 pub mod weights;
 mod world;
@@ -34,9 +35,12 @@ pub use error::PlanError;
 pub use features::Existence;
 pub use knowledge::Knowledge;
 pub use reasoning::Proofs;
-pub use report::{ContradictionReport, Decision, End, FeatureReport, InstanceReport, Next, TargetName, Terms, Update};
+pub use report::{
+    ContradictionReport, Decision, End, FeatureReport, InstanceReport, Next, Standing, TargetName, Terms, Update,
+};
 pub use session::{Options, Phase, Session};
 pub use simulated::Simulated;
 pub use status::{Contradiction, Status};
+pub use trace::{Absence, Proof, RuleTrace, Trace};
 pub use viewpoint::Viewpoint;
 pub use world::World;
