@@ -19,12 +19,13 @@ mod world;
 pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
 pub(crate) use names::suggest::closest;
 pub use source::{FileId, SourceFile, SourceMap, Span};
+pub use syntax::{Token, TokenClass, tokens};
 pub use world::{MOST_BYTES, Memory, ReadFailure, World};
 
 use crate::rules::RuleSet;
 
 /// The language edition that this build reads.
-pub const EDITION: u32 = 1;
+pub const EDITION: u32 = crate::rules::LANGUAGE;
 
 /// What compiling a program gave.
 #[derive(Debug)]

@@ -9,10 +9,12 @@ mod agreement;
 mod build;
 mod expected;
 mod expressions;
+mod facts;
 mod guard;
 mod libraries;
 mod recover;
 mod tasks;
+mod tokens;
 pub mod tree;
 
 use std::num::NonZeroUsize;
@@ -23,6 +25,8 @@ use pest_derive::Parser;
 
 use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
+
+pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.
 #[derive(Parser)]
