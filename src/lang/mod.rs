@@ -17,6 +17,7 @@ mod types;
 mod world;
 
 pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
+pub(crate) use names::suggest::closest;
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use syntax::{Token, TokenClass, tokens};
 pub use world::{MOST_BYTES, Memory, ReadFailure, World};

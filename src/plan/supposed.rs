@@ -11,8 +11,9 @@ use super::instances::{self, Detection, Finding};
 use super::knowledge::Knowledge;
 use super::reasoning::{self, Proofs};
 use super::status::Status;
+use super::trace::Proof;
 use super::world::World;
-use crate::detect::Measurement;
+use crate::detect::{Account, Condition, Measurement};
 use crate::geometry::Point;
 use crate::map::{Grid, Occupancy, TooLarge, Voxel};
 use crate::primitives::{Arguments, Datum};
@@ -94,12 +95,15 @@ fn no_rule<T>(evaluate: impl FnOnce(&Context<'_>) -> T) -> T {
 struct Nothing;
 
 impl Proofs for Nothing {
-    fn find(&self, _: &Rule, _: &Arguments, _: &Arguments) -> Result<Vec<Finding>, BadArgument> {
-        Ok(Vec::new())
+    fn find(&self, _: &Rule, _: &Arguments, _: &Arguments) -> Result<Proof, BadArgument> {
+        Ok(Proof {
+            findings: Vec::new(),
+            account: Account::of(0),
+        })
     }
 
-    fn shell(&self, _: &Rule, _: &Arguments, _: &[Point], _: f64) -> Result<bool, BadArgument> {
-        Ok(false)
+    fn shell(&self, _: &Rule, _: &Arguments, _: &[Point], _: f64) -> Result<Condition, BadArgument> {
+        Ok(Condition::plain("measured", false))
     }
 }
 

@@ -7,6 +7,7 @@
 mod arguments;
 mod attributes;
 mod cameras;
+pub mod colours;
 mod detectors;
 mod faces;
 mod measures;
