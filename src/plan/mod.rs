@@ -24,6 +24,7 @@ pub mod score;
 mod session;
 mod simulated;
 mod status;
+mod supposed;
 pub mod trace;
 mod viewpoint;
 pub mod weights;
@@ -41,6 +42,7 @@ pub use report::{
 pub use session::{Options, Phase, Session};
 pub use simulated::Simulated;
 pub use status::{Contradiction, Status};
+pub use supposed::{Supposed, constant, constant_arguments, suppose};
 pub use trace::{Absence, Proof, RuleTrace, Trace};
 pub use viewpoint::Viewpoint;
 pub use world::World;

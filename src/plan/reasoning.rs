@@ -171,14 +171,8 @@ fn take(
     status: &mut Status,
     knowledge: &Knowledge,
 ) {
-    let many = knowledge.library.feature(rule.consequent).many;
-    let matching = Matching {
-        many,
-        near: knowledge.criteria.near,
-        moved: knowledge.task.space.voxel / 2.0,
-        reach: knowledge.task.space.size.norm() / 2.0,
-    };
-    let pin = (many && !rule.antecedents.is_empty()).then(|| Pin {
+    let matching = matching(rule.consequent, knowledge);
+    let pin = (matching.many && !rule.antecedents.is_empty()).then(|| Pin {
         key: expansion.key.clone(),
         revisions: expansion.revisions.clone(),
     });
@@ -191,6 +185,16 @@ fn take(
         let feature = &mut status.features[rule.consequent.index()];
         instances::take(feature, detection, &matching, &mut status.next_revision);
         status.decide(rule.consequent, Existence::Detected);
+    }
+}
+
+/// How the instances of a feature are told apart.
+pub(super) fn matching(feature: FeatureId, knowledge: &Knowledge) -> Matching {
+    Matching {
+        many: knowledge.library.feature(feature).many,
+        near: knowledge.criteria.near,
+        moved: knowledge.task.space.voxel / 2.0,
+        reach: knowledge.task.space.size.norm() / 2.0,
     }
 }
 
@@ -346,7 +350,7 @@ fn rule_out(status: &mut Status, knowledge: &Knowledge, trace: &mut Trace) -> bo
 
 impl Status {
     /// Makes a state final by detection.
-    fn decide(&mut self, id: FeatureId, state: Existence) {
+    pub(super) fn decide(&mut self, id: FeatureId, state: Existence) {
         let feature = &mut self.features[id.index()];
         if feature.state.is_open() {
             feature.state = state;
