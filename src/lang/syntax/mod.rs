@@ -6,6 +6,7 @@
 
 #[cfg(test)]
 mod agreement;
+mod block;
 mod build;
 mod expected;
 mod expressions;
@@ -26,6 +27,7 @@ use pest_derive::Parser;
 use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
 
+pub use block::block;
 pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.
