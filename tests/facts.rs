@@ -327,6 +327,14 @@ fn far_more_facts_than_anyone_writes_are_refused_at_once() {
         "{}",
         said(&output)
     );
+    let wheel: String = (0..60)
+        .map(|k| {
+            let turn = f64::from(k) * std::f64::consts::TAU / 60.0;
+            format!("[{:.3} m, {:.3} m, 0 m], ", turn.cos() * 2.0, turn.sin() * 2.0)
+        })
+        .collect();
+    let output = test(&format!("given bottom = polygon([{wheel}])\n expect side predicted 60"));
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
     let places = "given side = square\n".repeat(65);
     let output = test(&format!("{places}expect rules 6"));
     assert!(said(&output).contains("at most 64 places"), "{}", said(&output));
@@ -340,6 +348,7 @@ fn numbers_without_meaning_are_said_before_anything_is_run() {
         "expect class box 1e300 % within 1e300 %",
         "given bottom = polygon([[1e300 m, 0 m, 0 m], [0 m, 1 m, 0 m], [0 m, 0 m, 1 m]])\n expect rules 6",
         "given mark at [0 m, 0 m, 0 m] facing [0, 0, 0]\n expect rules 6",
+        "given side = polygon([[0 m, 0 m, 0 m], [900000 m, 0 m, 0 m], [0 m, 0.000001 mm, 0 m]])\n expect rules 6",
         "expect rules 1.5",
     ] {
         let output = test(body);

@@ -7,6 +7,9 @@ use crate::rules::{Call, Expr, Value};
 /// How far a corner may lie off the plane of the others, over the face's extent.
 const UNEVEN: f64 = 0.01;
 
+/// Least area of a face, over its extent squared.
+const NEEDLE: f64 = 1e-6;
+
 /// The corners of a `polygon` call; `None` where some are not known before the robot moves.
 pub(super) fn corners(call: &Call) -> Option<Vec<Point>> {
     let Some(Expr::List(items)) = call.arguments.get("corners") else {
@@ -64,6 +67,9 @@ pub(super) fn check_polygon(call: &Call) -> Option<String> {
         return Some("these corners span no face: they lie on one line".into());
     };
     let (middle, extent) = middle_and_extent(face.vertices());
+    if face.area() < NEEDLE * extent * extent {
+        return Some("these corners span no face: they lie almost on one line".into());
+    }
     let off = |p: &Point| (p - middle).dot(&face.normal()).abs();
     let (number, worst) =
         (1..).zip(face.vertices()).fold(

@@ -17,7 +17,7 @@ const MOST_EXPECTED: usize = 10_000;
 const MOST_PLACES: usize = 64;
 /// Most combinations of measured instances and edges that the rules of a fact's
 /// library have.
-const MOST_COMBINATIONS: f64 = 10_000.0;
+const MOST_COMBINATIONS: f64 = 1_000.0;
 
 /// How far places may lie apart where a test does not say, metres.
 const USUAL_DISTANCE: f64 = 1e-3;
