@@ -12,6 +12,7 @@ mod expressions;
 mod guard;
 mod libraries;
 mod recover;
+mod same;
 mod tasks;
 mod tokens;
 pub mod tree;
@@ -25,6 +26,8 @@ use pest_derive::Parser;
 use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
 
+pub(super) use same::same_program;
+pub(super) use tokens::read;
 pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.
