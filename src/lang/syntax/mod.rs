@@ -6,9 +6,11 @@
 
 #[cfg(test)]
 mod agreement;
+mod block;
 mod build;
 mod expected;
 mod expressions;
+mod facts;
 mod guard;
 mod libraries;
 mod recover;
@@ -26,6 +28,7 @@ use pest_derive::Parser;
 use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
 
+pub use block::block;
 pub(super) use same::same_program;
 pub(super) use tokens::read;
 pub use tokens::{Token, TokenClass, tokens};
