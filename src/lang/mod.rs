@@ -8,6 +8,7 @@
 
 mod checks;
 mod diagnostics;
+mod format;
 mod lower;
 mod names;
 mod source;
@@ -17,6 +18,7 @@ mod types;
 mod world;
 
 pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
+pub use format::{Formatted, edits, format};
 pub(crate) use names::suggest::closest;
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use syntax::{Token, TokenClass, tokens};
