@@ -10,13 +10,18 @@ mod checks;
 mod diagnostics;
 mod lower;
 mod names;
+mod repair;
 mod source;
 mod stdlib;
 pub mod syntax;
 mod types;
 mod world;
 
-pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
+pub use diagnostics::{
+    Code, Diagnostic, Edit, Fix, Format, Label, Severity, UnknownCode, edited, explain, index_of_codes, list_of_codes,
+    page, render, similar_codes, title,
+};
+pub use repair::{Applied, Repaired, repair};
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use world::{MOST_BYTES, Memory, ReadFailure, World};
 
