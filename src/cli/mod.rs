@@ -2,7 +2,10 @@
 
 mod check;
 mod compile;
+mod completions;
+mod explain;
 mod files;
+mod new;
 mod plan;
 
 pub use files::Disk;
@@ -12,6 +15,8 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+use crate::lang::{Code, Compilation, Format, Severity};
 
 /// View Planning Language: say what to perceive, get the next best view.
 #[derive(Parser)]
@@ -23,9 +28,12 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Verb {
+    New(new::New),
     Check(check::Check),
+    Explain(explain::Explain),
     Compile(compile::Compile),
     Plan(Box<plan::Plan>),
+    Completions(completions::Completions),
 }
 
 /// How a command ended; the numbers are its exit status.
@@ -43,13 +51,13 @@ pub(crate) enum Outcome {
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     /// A result could not be written.
-    #[error("error[E0601]: {0} cannot be written: {1}")]
+    #[error("error[{code}]: {0} cannot be written: {1}", code = Code::E0601)]
     Write(String, io::Error),
     /// A run log is not of the run that would be continued.
-    #[error("error[E0602]: {0} cannot be resumed: {1}")]
+    #[error("error[{code}]: {0} cannot be resumed: {1}", code = Code::E0602)]
     Resume(String, String),
     /// A run could not be made or continued.
-    #[error("error[E0603]: {0}")]
+    #[error("error[{code}]: {0}", code = Code::E0603)]
     Run(String),
     /// The command was called wrongly.
     #[error("error: {0}")]
@@ -63,9 +71,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(error) => return usage(&error),
     };
     let outcome = match cli.verb {
+        Verb::New(new) => new::run(&new),
         Verb::Check(check) => check::run(&check),
+        Verb::Explain(explain) => explain::run(&explain),
         Verb::Compile(compile) => compile::run(&compile),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Completions(completions) => completions::run(&completions),
     };
     match outcome {
         Ok(outcome) => ExitCode::from(outcome as u8),
@@ -97,5 +108,14 @@ pub(crate) fn report(text: &str) -> Result<(), Failure> {
     match io::stderr().lock().write_all(text.as_bytes()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Write("standard error".into(), error)),
         _ => Ok(()),
+    }
+}
+
+/// Where a report for people says how to learn more: of the first error.
+pub(crate) fn more<'a>(checked: impl IntoIterator<Item = &'a Compilation>, format: Format) -> String {
+    let mut all = checked.into_iter().flat_map(|c| &c.diagnostics);
+    match (format, all.find(|d| d.severity == Severity::Error)) {
+        (Format::Human { .. }, Some(first)) => format!("for more, run `vpl explain {}`\n", first.code),
+        _ => String::new(),
     }
 }
