@@ -6,6 +6,7 @@
 
 #[cfg(test)]
 mod agreement;
+mod block;
 mod build;
 mod expected;
 mod expressions;
@@ -14,6 +15,7 @@ mod guard;
 mod habits;
 mod libraries;
 mod recover;
+mod same;
 mod slips;
 mod tasks;
 mod tokens;
@@ -29,6 +31,9 @@ use pest_derive::Parser;
 use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
 
+pub use block::block;
+pub(super) use same::same_program;
+pub(super) use tokens::read;
 pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.

@@ -6,7 +6,9 @@
 mod calls;
 mod classes;
 mod colours;
+mod expectations;
 mod expressions;
+mod facts;
 mod fallbacks;
 mod features;
 mod forms;
@@ -21,6 +23,7 @@ mod rule;
 mod scene;
 mod scope;
 mod shadowing;
+pub(super) mod stated;
 mod task;
 pub(super) mod typed;
 pub(super) mod units;
@@ -167,11 +170,13 @@ impl<'a> Checker<'a> {
         let each = |want: fn(&tree::Item) -> Option<&tree::Name>| file.items.iter().filter_map(want);
         names::unique("task", each(task_name), &mut self.found);
         names::unique("scene", each(scene_name), &mut self.found);
+        names::unique("test", each(test_name), &mut self.found);
         out.libraries = self.listed(file);
         for item in &file.items {
             match item {
                 tree::Item::Task(task) => out.tasks.extend(self.task(task, &out.libraries)),
                 tree::Item::Scene(scene) => out.scenes.push(self.scene(scene, &out.libraries)),
+                tree::Item::Test(test) => out.facts.push(self.fact(test, &out.libraries)),
                 _ => {}
             }
         }
@@ -222,6 +227,13 @@ fn task_name(item: &tree::Item) -> Option<&tree::Name> {
 fn scene_name(item: &tree::Item) -> Option<&tree::Name> {
     match item {
         tree::Item::Scene(scene) => Some(&scene.name),
+        _ => None,
+    }
+}
+
+fn test_name(item: &tree::Item) -> Option<&tree::Name> {
+    match item {
+        tree::Item::Test(test) => Some(&test.name),
         _ => None,
     }
 }
