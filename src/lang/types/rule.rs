@@ -74,7 +74,7 @@ impl<'a> Checker<'a> {
             self.hides_a_parameter("index variable", name, outer);
             let values = declared(family);
             match out.iter_mut().find(|(n, _)| *n == name.text) {
-                Some((_, known)) => known.retain(|v| values.contains(v)),
+                Some((_, known)) => known.retain(|v| values.binary_search(v).is_ok()),
                 None => out.push((name.text.clone(), values)),
             }
         }
