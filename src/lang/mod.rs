@@ -18,6 +18,7 @@ mod world;
 
 pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
 pub use source::{FileId, SourceFile, SourceMap, Span};
+pub use syntax::{Token, TokenClass, tokens};
 pub use world::{MOST_BYTES, Memory, ReadFailure, World};
 
 use crate::rules::RuleSet;

@@ -13,6 +13,7 @@ mod guard;
 mod libraries;
 mod recover;
 mod tasks;
+mod tokens;
 pub mod tree;
 
 use std::num::NonZeroUsize;
@@ -23,6 +24,8 @@ use pest_derive::Parser;
 
 use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
+
+pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.
 #[derive(Parser)]
