@@ -6,8 +6,10 @@
 //! known about a task before the robot moves). Stages collect diagnostics and go
 //! on. Nothing here does I/O: files come through a [`World`].
 
+mod analysis;
 mod checks;
 mod diagnostics;
+pub mod index;
 mod lower;
 mod names;
 mod source;
@@ -16,51 +18,24 @@ pub mod syntax;
 mod types;
 mod world;
 
+pub use analysis::{Analysis, Compilation, Expansion, analyse};
 pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use syntax::{Token, TokenClass, tokens};
 pub use world::{MOST_BYTES, Memory, ReadFailure, World};
 
-use crate::rules::RuleSet;
+use crate::primitives::Primitive;
 
 /// The language edition that this build reads.
 pub const EDITION: u32 = 1;
 
-/// What compiling a program gave.
-#[derive(Debug)]
-pub struct Compilation {
-    /// The compiled program; `Some` exactly when no diagnostic is an error.
-    pub rules: Option<RuleSet>,
-    /// Everything there is to say about it, in the order of the text.
-    pub diagnostics: Vec<Diagnostic>,
-    /// The files that were read. [`crate::rules::Place::file`] is a [`FileId`] here.
-    pub sources: SourceMap,
-}
-
-impl Compilation {
-    /// Whether some diagnostic is an error.
-    pub fn has_errors(&self) -> bool {
-        self.diagnostics.iter().any(|d| d.severity == Severity::Error)
-    }
-}
-
 /// Compiles the program at `path`. Never panics, whatever the input.
 pub fn compile(path: &str, world: &dyn World) -> Compilation {
-    let mut sources = SourceMap::default();
-    let (program, mut diagnostics) = names::load(path, world, &mut sources);
-    let rules = program.map(|program| {
-        let (typed, found) = types::check(&program);
-        diagnostics.extend(found);
-        let (lowered, found) = lower::lower(&program, &typed, &sources);
-        diagnostics.extend(found);
-        diagnostics.extend(checks::check(&lowered));
-        lowered.rules
-    });
-    diagnostics::in_order(&mut diagnostics);
-    let failed = diagnostics.iter().any(|d| d.severity == Severity::Error);
-    Compilation {
-        rules: rules.filter(|_| !failed),
-        diagnostics,
-        sources,
-    }
+    analyse(path, world).compile()
+}
+
+/// The primitive of a name, or the form of a statement that looks like a call of one:
+/// the `cube` of `space cube(1 m)`.
+pub fn callable(name: &str) -> Option<&'static Primitive> {
+    crate::primitives::find(name).or_else(|| types::forms::form(name))
 }

@@ -14,6 +14,7 @@ const MOST_MODULES: usize = 256;
 
 /// A file that was read, and what its imports point to.
 pub(super) struct Loaded {
+    pub file: FileId,
     pub tree: tree::File,
     /// The module behind each import in order; `None` where it failed.
     pub imports: Vec<Option<usize>>,
@@ -77,6 +78,7 @@ impl Loader<'_> {
         let imports = imports.map(|import| self.import(&key, import)).collect();
         self.reading.pop();
         self.modules[index] = Some(Loaded {
+            file,
             tree,
             imports,
             title: title(&key),

@@ -7,6 +7,7 @@ use super::scope::Scope;
 use super::typed::{Expr, ExprKind};
 use super::{Checker, units};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::{Entity, Kind};
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::names::{DefinitionId, standard_home};
 use crate::lang::source::Span;
@@ -17,6 +18,7 @@ use crate::primitives::{self, Default, Primitive, Type};
 #[derive(Clone, Copy)]
 struct Wanted<'a> {
     name: &'a str,
+    entity: Entity,
     /// `None` where its declaration is wrong.
     ty: Option<Type>,
     required: bool,
@@ -29,7 +31,10 @@ impl Checker<'_> {
             Some(Some(id)) => self.definition_call(*id, call, span, scope),
             Some(None) => self.arguments_alone(call, scope),
             None => match primitives::find(name) {
-                Some(primitive) => self.primitive_call(primitive, call, span, scope),
+                Some(primitive) => {
+                    self.names.uses(call.name.span, Entity::Primitive(primitive.name));
+                    self.primitive_call(primitive, call, span, scope)
+                }
                 None => {
                     self.unknown_callee(&call.name, scope);
                     self.arguments_alone(call, scope)
@@ -60,6 +65,7 @@ impl Checker<'_> {
             .iter()
             .map(|p| Wanted {
                 name: p.name,
+                entity: Entity::Argument(primitive.name, p.name),
                 ty: Some(p.ty),
                 required: matches!(p.default, Default::Required),
             })
@@ -84,12 +90,16 @@ impl Checker<'_> {
         span: Span,
         scope: Scope<'_>,
     ) -> Option<Expr> {
+        self.names.uses(call.name.span, self.entity(id));
         let ty = self.definition(id);
         let signature = self.signatures[id.0].clone();
+        let declared = &self.program.definition(id).tree.parameters;
         let wanted: Vec<Wanted<'_>> = signature
             .iter()
-            .map(|(name, ty)| Wanted {
+            .zip(declared)
+            .map(|((name, ty), parameter)| Wanted {
                 name,
+                entity: Entity::Declared(Kind::Parameter, parameter.name.span),
                 ty: *ty,
                 required: true,
             })
@@ -155,6 +165,9 @@ impl Checker<'_> {
         scope: Scope<'_>,
     ) -> Option<usize> {
         let slot = wanted.iter().position(|w| w.name == name.text);
+        if let Some(slot) = slot {
+            self.names.uses(name.span, wanted[slot].entity);
+        }
         if slot.is_some() || scope.lost(callee) {
             return slot;
         }

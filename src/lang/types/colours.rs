@@ -18,8 +18,11 @@ const NAMED: &[(&str, [u8; 3])] = &[
 ];
 
 /// The colour of a name.
-pub(super) fn named(name: &str) -> Option<Colour> {
-    NAMED.iter().find(|(n, _)| *n == name).map(|(_, rgb)| Colour(*rgb))
+pub(super) fn named(name: &str) -> Option<(&'static str, Colour)> {
+    NAMED
+        .iter()
+        .find(|(n, _)| *n == name)
+        .map(|(n, rgb)| (*n, Colour(*rgb)))
 }
 
 /// All names.

@@ -6,6 +6,7 @@ use super::Checker;
 use super::scope::{RuleScope, declared, index_use};
 use super::typed::{Families, Family, Feature, FeatureUse, IndexUse, Members};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::{Entity, Kind};
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, Index};
@@ -57,12 +58,13 @@ impl Checker<'_> {
     }
 
     fn feature_kind(&mut self, word: &tree::Name) -> Option<FeatureKind> {
-        let found = KINDS.iter().find(|(name, _)| *name == word.text).map(|(_, kind)| *kind);
-        if found.is_none() {
+        let Some((name, kind)) = KINDS.iter().find(|(name, _)| *name == word.text) else {
             let names: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
             self.unknown_word(word, "the kind of a feature", &names);
-        }
-        found
+            return None;
+        };
+        self.names.uses(word.span, Entity::Type(name));
+        Some(*kind)
     }
 
     fn members(&mut self, declared: &tree::Feature, kind: FeatureKind, features: &mut Vec<Feature>) -> Option<Members> {
@@ -161,6 +163,9 @@ impl Checker<'_> {
 
     fn family<'f>(&mut self, name: &tree::Name, families: &'f Families) -> Option<&'f Family> {
         let found = families.0.get(&name.text);
+        if let Some(family) = found {
+            self.names.uses(name.span, Entity::Declared(Kind::Feature, family.span));
+        }
         let lost = self.program.main().lost.contains(&name.text);
         if found.is_none() && !lost && self.unknown.insert(name.text.clone()) {
             let known = || families.0.keys().map(String::as_str);
@@ -230,6 +235,9 @@ pub(super) fn feature_use(
         }
         (IndexUse::Literal(n), Members::Indexed(ids)) if ids.contains_key(n) => {}
         (IndexUse::Variable(v), Members::Indexed(_)) => {
+            if let Some(Index::Variable(name)) = index {
+                checker.names.uses_local(name);
+            }
             let known = rule.is_some_and(|r| r.indices.iter().any(|(name, _)| name == v));
             if !known {
                 checker.report(

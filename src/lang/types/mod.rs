@@ -4,17 +4,17 @@
 //! lowering expands. What is wrong is left out of it, and said once.
 
 mod calls;
-mod colours;
+pub(super) mod colours;
 mod expressions;
 mod features;
-mod forms;
+pub(super) mod forms;
 mod library;
 mod operators;
 mod references;
 mod rule;
 mod scene;
 mod scope;
-mod task;
+pub(super) mod task;
 pub(super) mod typed;
 pub(super) mod units;
 mod words;
@@ -22,18 +22,21 @@ mod words;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::diagnostics::{Code, Diagnostic};
+use super::index::{self, Entity, Index, Kind, Recorder};
 use super::names::{self, DefinitionId, Program, suggest::did_you_mean};
 use super::syntax::tree;
 use crate::primitives::Type;
+use crate::rules::FeatureKind;
 use scope::Scope;
 
 /// Checks a program.
-pub(super) fn check(program: &Program) -> (typed::Program, Vec<Diagnostic>) {
+pub(super) fn check(program: &Program) -> (typed::Program, Index, Vec<Diagnostic>) {
     let mut checker = Checker {
         program,
         signatures: Vec::new(),
         definitions: (0..program.definitions.len()).map(|_| State::New).collect(),
         unknown: BTreeSet::new(),
+        names: Recorder::new(program),
         found: Vec::new(),
     };
     checker.signatures = (0..program.definitions.len())
@@ -43,8 +46,9 @@ pub(super) fn check(program: &Program) -> (typed::Program, Vec<Diagnostic>) {
         checker.definition(DefinitionId(k));
     }
     let mut out = checker.items(&program.main().tree);
+    checker.record_signatures();
     out.definitions = checker.definitions.into_iter().map(State::done).collect();
-    (out, checker.found)
+    (out, checker.names.index(), checker.found)
 }
 
 struct Checker<'a> {
@@ -54,6 +58,7 @@ struct Checker<'a> {
     definitions: Vec<State>,
     /// Unknown names that were reported, each once.
     unknown: BTreeSet<String>,
+    names: Recorder,
     found: Vec<Diagnostic>,
 }
 
@@ -66,6 +71,13 @@ enum State {
 }
 
 impl State {
+    fn body(&self) -> Option<&typed::Expr> {
+        match self {
+            Self::Done(definition) => Some(&definition.body),
+            Self::New | Self::Unusable => None,
+        }
+    }
+
     fn done(self) -> Option<typed::Definition> {
         match self {
             Self::Done(definition) => Some(definition),
@@ -91,7 +103,7 @@ impl<'a> Checker<'a> {
 
     fn type_name(&mut self, name: &tree::TypeName) -> Option<Type> {
         let element = &name.element;
-        let Some(mut ty) = units::named(&element.text) else {
+        let Some((word, mut ty)) = units::named(&element.text) else {
             let known = units::NAMED.iter().map(|(name, _)| *name);
             let help = did_you_mean(&element.text, known.clone())
                 .unwrap_or_else(|| format!("types are {}", known.collect::<Vec<_>>().join(", ")));
@@ -105,6 +117,7 @@ impl<'a> Checker<'a> {
             );
             return None;
         };
+        self.names.uses(element.span, Entity::Type(word));
         for _ in 0..name.depth {
             let Some(list) = units::list_of(ty) else {
                 let message = format!("there are no lists of {}", units::describe(ty));
@@ -133,11 +146,53 @@ impl<'a> Checker<'a> {
             parameters: Some(&parameters),
             ..Scope::of(&program.modules[definition.module])
         };
-        let body = self.infer(&definition.tree.body, scope)?;
+        let around = self.names.enter();
+        for (parameter, (_, ty)) in definition.tree.parameters.iter().zip(&self.signatures[id.0]) {
+            self.names.local(Kind::Parameter, &parameter.name, *ty);
+        }
+        let body = self.infer(&definition.tree.body, scope);
+        self.names.leave(around);
+        let body = body?;
         let ty = body.ty;
         let parameters = self.signatures[id.0].iter().map(|(name, _)| name.clone()).collect();
         self.definitions[id.0] = State::Done(typed::Definition { parameters, body });
         Some(ty)
+    }
+
+    /// The entity of a definition.
+    fn entity(&self, id: DefinitionId) -> Entity {
+        Entity::Declared(Kind::Definition, self.program.definition(id).tree.name.span)
+    }
+
+    fn record_signatures(&mut self) {
+        for (k, parameters) in self.signatures.iter().enumerate() {
+            let id = DefinitionId(k);
+            let parameters = parameters.iter().map(|(name, ty)| index::Parameter {
+                name: name.clone(),
+                ty: *ty,
+            });
+            let signature = index::Signature {
+                parameters: parameters.collect(),
+                result: self.definitions[k].body().map(|body| body.ty),
+                features: self.features_of(id),
+            };
+            self.names
+                .signature(self.program.definition(id).tree.name.span, signature);
+        }
+    }
+
+    /// The kinds of feature that a definition is for: those of its primitive.
+    fn features_of(&self, id: DefinitionId) -> &'static [FeatureKind] {
+        let mut body = self.definitions[id.0].body();
+        // Definitions need no circle: whoever is done was checked after what it names.
+        while let Some(expr) = body {
+            match &expr.kind {
+                typed::ExprKind::Primitive(primitive, _) => return primitive.features,
+                typed::ExprKind::Definition(next, _) => body = self.definitions[next.0].body(),
+                _ => break,
+            }
+        }
+        &[]
     }
 
     fn items(&mut self, file: &'a tree::File) -> typed::Program {

@@ -6,6 +6,7 @@ use super::scope::{Role, RuleScope, Scope};
 use super::typed::{Expr, ExprKind, FeatureUse};
 use super::{Checker, colours, units};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Entity;
 use crate::lang::names::{
     DefinitionId, standard_home,
     suggest::{closest, one_of},
@@ -18,10 +19,12 @@ impl Checker<'_> {
     pub(super) fn reference(&mut self, r: &tree::Reference, scope: Scope<'_>) -> Option<Expr> {
         let name = &r.name.text;
         if let Some(ty) = scope.parameter(name) {
+            self.names.uses_local(&r.name);
             self.no_parts(r, "a parameter")?;
             return Some(made(ExprKind::Parameter(name.clone()), ty?, r.span));
         }
         if let Some(ty) = scope.variable(name) {
+            self.names.uses_local(&r.name);
             self.no_parts(r, "a `for each` variable")?;
             return Some(made(ExprKind::Variable(name.clone()), ty?, r.span));
         }
@@ -52,6 +55,7 @@ impl Checker<'_> {
 
     /// `kinect_v2`: a definition without parameters.
     fn bare_definition(&mut self, id: DefinitionId, r: &tree::Reference) -> Option<Expr> {
+        self.names.uses(r.name.span, self.entity(id));
         self.no_parts(r, "a definition")?;
         let parameters = &self.signatures[id.0];
         if parameters.is_empty() {
@@ -69,6 +73,7 @@ impl Checker<'_> {
     fn bare_word(&mut self, r: &tree::Reference, scope: Scope<'_>) -> Option<Expr> {
         let name = &r.name.text;
         if let Some(primitive) = primitives::find(name) {
+            self.names.uses(r.name.span, Entity::Primitive(primitive.name));
             let call = format!("{name}()");
             let out = Diagnostic::new(Code::E0303, r.span, format!("`{name}` is called with parentheses"));
             let out = if primitive
@@ -87,8 +92,9 @@ impl Checker<'_> {
         }
         if r.index.is_none()
             && r.fields.is_empty()
-            && let Some(colour) = colours::named(name)
+            && let Some((word, colour)) = colours::named(name)
         {
+            self.names.uses(r.span, Entity::Colour(word));
             return Some(constant(Value::Colour(colour), Type::Colour, r.span));
         }
         self.unknown_name(&r.name, scope);
@@ -152,6 +158,7 @@ impl Checker<'_> {
     ) -> Option<(String, Type)> {
         let known: &[Attribute] = attributes(kind);
         if let Some(found) = known.iter().find(|a| a.name == field.text) {
+            self.names.uses(field.span, Entity::Attribute(kind.into(), found.name));
             return Some((found.name.to_owned(), found.ty));
         }
         let names = || known.iter().map(|a| a.name);

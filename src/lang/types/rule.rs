@@ -6,6 +6,7 @@ use super::features::feature_use;
 use super::scope::{Role, RuleScope, Scope, declared, index_use};
 use super::typed::{Each, Expr, ExprKind, Families, FeatureUse, IndexUse, Rule};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Kind;
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, Index};
 use crate::primitives::Type;
@@ -38,6 +39,7 @@ impl<'a> Checker<'a> {
 
     /// The features and index variables of a rule's `->` line.
     fn rule_scope<'f>(&mut self, rule: &tree::Rule, families: &'f Families) -> Option<RuleScope<'f>> {
+        self.names.enter();
         let heads: Vec<&tree::FeatureRef> = rule.antecedents.iter().chain([&rule.consequent]).collect();
         let indices = self.indices(&heads, families);
         let mut scope = RuleScope {
@@ -66,6 +68,7 @@ impl<'a> Checker<'a> {
                 continue;
             };
             let values = declared(family);
+            self.names.local(Kind::Index, name, None);
             match out.iter_mut().find(|(n, _)| *n == name.text) {
                 Some((_, known)) => known.retain(|v| values.contains(v)),
                 None => out.push((name.text.clone(), values)),
@@ -108,6 +111,8 @@ impl<'a> Checker<'a> {
                 self.report(out.help("give the variable another name"));
             }
             let checked = self.one_each(each, scope);
+            self.names
+                .local(Kind::Variable, name, checked.as_ref().map(|_| Type::Edge));
             scope
                 .each
                 .push((name.text.clone(), checked.as_ref().map(|_| Type::Edge)));

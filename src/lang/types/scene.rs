@@ -5,6 +5,7 @@ use super::expressions::Due;
 use super::forms::BACKDROPS;
 use super::scope::Scope;
 use super::typed::{Expr, Library, Marked, Object, Scene};
+use crate::lang::index::Kind;
 use crate::lang::syntax::tree;
 use crate::primitives::Type;
 
@@ -68,6 +69,9 @@ impl<'a> Checker<'a> {
             return None;
         };
         let here = &libraries[library];
+        self.names.member(Kind::Library, "", &marked.library);
+        self.names.member(Kind::Layout, &here.name, &marked.layout);
+        self.names.member(Kind::Class, &here.name, &marked.class);
         let layout = here.layouts.iter().position(|l| l.name == marked.layout.text);
         if layout.is_none() {
             self.unknown_item("layout", &marked.layout, here.layouts.iter().map(|l| l.name.as_str()));

@@ -8,6 +8,7 @@ use super::forms::SPACES;
 use super::scope::Scope;
 use super::typed::{Expr, Library, Task};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::{Entity, Kind as Declared};
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, TaskStatementKind as Kind};
@@ -127,6 +128,7 @@ impl<'a> Checker<'a> {
 
     fn library_of(&mut self, name: &tree::Name, libraries: &[Library]) -> Option<String> {
         if libraries.iter().any(|l| l.name == name.text) {
+            self.names.member(Declared::Library, "", name);
             return Some(name.text.clone());
         }
         self.unknown_item("library", name, libraries.iter().map(|l| l.name.as_str()));
@@ -173,15 +175,17 @@ impl<'a> Checker<'a> {
 
     fn one_of_words(&mut self, name: &tree::Name, what: &str, words: &[&'static str]) -> Option<&'static str> {
         let found = words.iter().find(|w| **w == name.text).copied();
-        if found.is_none() {
-            self.unknown_word(name, what, words);
+        match found {
+            Some(word) => self.names.uses(name.span, Entity::Word(word)),
+            None => self.unknown_word(name, what, words),
         }
         found
     }
 
     fn method(&mut self, name: &tree::Name) -> Option<String> {
         let lower = name.text.to_ascii_lowercase();
-        if METHODS.contains(&lower.as_str()) {
+        if let Some(word) = METHODS.iter().find(|word| **word == lower) {
+            self.names.uses(name.span, Entity::Word(word));
             return Some(lower);
         }
         self.unknown_word(name, "`method`", METHODS);
@@ -192,7 +196,7 @@ impl<'a> Checker<'a> {
         &mut self,
         fields: &[tree::Field],
         known: &[(&'static str, Type)],
-        word: &str,
+        word: &'static str,
     ) -> BTreeMap<&'static str, Expr> {
         let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
         let mut out = BTreeMap::new();
@@ -203,6 +207,7 @@ impl<'a> Checker<'a> {
                 self.unknown_word(name, &format!("a field of `{word}`"), &names);
                 continue;
             };
+            self.names.uses(name.span, Entity::Field(word, known_name));
             if let Some(first) = seen.insert(known_name, name.span) {
                 self.surplus(name.span, first, &name.text);
                 continue;

@@ -25,12 +25,9 @@ pub(super) fn all() -> impl Iterator<Item = &'static str> {
     UNITS.iter().map(|(name, ..)| *name).chain(NOUNS.iter().copied())
 }
 
-/// The type of a unit, and what one of it is in SI units.
-pub(super) fn find(unit: &str) -> Option<(Type, f64)> {
-    UNITS
-        .iter()
-        .find(|(name, ..)| *name == unit)
-        .map(|(_, ty, si)| (*ty, *si))
+/// A unit: its name, its type, and what one of it is in SI units.
+pub(super) fn find(unit: &str) -> Option<(&'static str, Type, f64)> {
+    UNITS.iter().find(|(name, ..)| *name == unit).copied()
 }
 
 /// The units of a type, the usual one first.
@@ -124,9 +121,9 @@ pub(super) fn example(ty: Type) -> Option<&'static str> {
     })
 }
 
-/// The type of a name in a parameter list.
-pub(super) fn named(word: &str) -> Option<Type> {
-    NAMED.iter().find(|(name, _)| *name == word).map(|(_, ty)| *ty)
+/// A name of a type in a parameter list.
+pub(super) fn named(word: &str) -> Option<(&'static str, Type)> {
+    NAMED.iter().find(|(name, _)| *name == word).copied()
 }
 
 /// Names of types in parameter lists.
@@ -183,7 +180,7 @@ mod tests {
     #[test]
     fn ten_millimetres_are_exactly_a_hundredth() {
         let of = |n: f64, unit: &str| {
-            let (ty, si) = find(unit).unwrap();
+            let (_, ty, si) = find(unit).unwrap();
             value(ty, n, si)
         };
         assert_eq!(of(10.0, "mm"), Value::Length(0.01));
@@ -195,6 +192,6 @@ mod tests {
 
     #[test]
     fn every_listed_type_has_a_name_back() {
-        assert!(NAMED.iter().all(|(name, ty)| named(name) == Some(*ty)));
+        assert!(NAMED.iter().all(|(name, ty)| named(name) == Some((*name, *ty))));
     }
 }
