@@ -10,6 +10,7 @@
 pub mod cli;
 pub mod detect;
 pub mod geometry;
+pub mod ide;
 pub mod lang;
 pub mod map;
 pub mod plan;

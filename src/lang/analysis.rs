@@ -76,6 +76,11 @@ impl Analysis {
         modules.filter(|m| m.file == file).map(|m| &m.tree).next()
     }
 
+    /// What is wrong with its names and types.
+    pub fn found(&self) -> &[Diagnostic] {
+        &self.found
+    }
+
     /// Expands the program, and analyses its tasks.
     pub fn expand(&self) -> Expansion {
         let mut diagnostics = self.found.clone();

@@ -16,6 +16,7 @@ mod source;
 mod stdlib;
 pub mod syntax;
 mod types;
+pub mod vocabulary;
 mod world;
 
 pub use analysis::{Analysis, Compilation, Expansion, analyse};

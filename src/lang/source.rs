@@ -123,6 +123,11 @@ impl SourceMap {
         self.files.get(id.0 as usize)
     }
 
+    /// All files with their ids.
+    pub fn all(&self) -> impl Iterator<Item = (FileId, &SourceFile)> {
+        self.files.iter().enumerate().map(|(k, file)| (FileId(k as u32), file))
+    }
+
     /// The text under a span; empty where there is none.
     pub fn text(&self, span: Span) -> &str {
         self.get(span.file)

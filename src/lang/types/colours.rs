@@ -27,5 +27,10 @@ pub(super) fn named(name: &str) -> Option<(&'static str, Colour)> {
 
 /// All names.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
-    NAMED.iter().map(|(n, _)| *n)
+    all().map(|(n, _)| n)
+}
+
+/// All colours by name.
+pub(in crate::lang) fn all() -> impl Iterator<Item = (&'static str, Colour)> {
+    NAMED.iter().map(|(n, rgb)| (*n, Colour(*rgb)))
 }

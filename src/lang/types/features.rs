@@ -15,7 +15,8 @@ use crate::rules::{FeatureId, FeatureKind};
 /// Most features of a library.
 const MOST_FEATURES: usize = 4_096;
 
-const KINDS: &[(&str, FeatureKind)] = &[
+/// The kinds of feature by name.
+pub(in crate::lang) const KINDS: &[(&str, FeatureKind)] = &[
     ("polygon", FeatureKind::Polygon),
     ("marker", FeatureKind::Marker),
     ("shell", FeatureKind::Shell),

@@ -11,7 +11,7 @@ use crate::primitives::{Default, Parameter, Primitive, Type};
 use crate::rules::{Colour, Value};
 
 /// `space cube(600 mm)` and `space box(1 m, 1 m, 2 m)`.
-pub(super) const SPACES: &[Primitive] = &[
+pub(in crate::lang) const SPACES: &[Primitive] = &[
     length_form("cube", &[required("edge", "Edge of the cube.")]),
     length_form(
         "box",
@@ -24,7 +24,7 @@ pub(super) const SPACES: &[Primitive] = &[
 ];
 
 /// `backdrop sphere(radius: 2 m, colour: grey)`.
-pub(super) const BACKDROPS: &[Primitive] = &[length_form(
+pub(in crate::lang) const BACKDROPS: &[Primitive] = &[length_form(
     "sphere",
     &[
         Parameter {

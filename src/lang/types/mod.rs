@@ -6,7 +6,7 @@
 mod calls;
 pub(super) mod colours;
 mod expressions;
-mod features;
+pub(super) mod features;
 pub(super) mod forms;
 mod library;
 mod operators;

@@ -16,17 +16,23 @@ use crate::primitives::Type;
 use crate::rules::{Goal, Inspected};
 
 /// The methods of choosing views.
-const METHODS: &[&str] = &[
+pub(in crate::lang) const METHODS: &[&str] = &[
     "gn", "gno", "joint", "oa", "uv", "rsv", "rse", "pc", "af", "ae", "ts", "pfdt", "random",
 ];
 /// The method where a task names none.
 const USUAL_METHOD: &str = "gn";
-const THRESHOLDS: &[(&str, Type)] = &[
+pub(in crate::lang) const THRESHOLDS: &[(&str, Type)] = &[
     ("near", Type::Length),
     ("absent", Type::Share),
     ("confidence", Type::Share),
 ];
-const SENSOR_MODEL: &[(&str, Type)] = &[
+/// What a task can aim at.
+pub(in crate::lang) const GOALS: &[&str] = &["confident", "exhausted"];
+/// When a feature counts as inspected.
+pub(in crate::lang) const INSPECTED: &[&str] = &["observed", "near_point"];
+/// What is verified.
+pub(in crate::lang) const VERIFY: &[&str] = &["all"];
+pub(in crate::lang) const SENSOR_MODEL: &[(&str, Type)] = &[
     ("hit", Type::Share),
     ("miss", Type::Share),
     ("clamp_min", Type::Share),
@@ -85,17 +91,15 @@ impl<'a> Checker<'a> {
             Kind::Method(name) => draft.method = self.method(name),
             Kind::GainFloor(e) => self.count(draft, "gain_floor", e, "voxels"),
             Kind::Inspected(name) => {
-                draft.inspected = self
-                    .one_of_words(name, "`inspected`", &["observed", "near_point"])
-                    .map(|word| {
-                        if word == "near_point" {
-                            Inspected::NearPoint
-                        } else {
-                            Inspected::Observed
-                        }
-                    });
+                draft.inspected = self.one_of_words(name, "`inspected`", INSPECTED).map(|word| {
+                    if word == "near_point" {
+                        Inspected::NearPoint
+                    } else {
+                        Inspected::Observed
+                    }
+                });
             }
-            Kind::Verify(name) => draft.verify = self.one_of_words(name, "`verify`", &["all"]).is_some(),
+            Kind::Verify(name) => draft.verify = self.one_of_words(name, "`verify`", VERIFY).is_some(),
             Kind::SensorModel(fields) => draft.sensor_model = self.fields(fields, SENSOR_MODEL, "sensor_model"),
         }
     }
@@ -161,7 +165,7 @@ impl<'a> Checker<'a> {
             exhausted: false,
         };
         for name in words {
-            let part = match self.one_of_words(name, "`goal`", &["confident", "exhausted"])? {
+            let part = match self.one_of_words(name, "`goal`", GOALS)? {
                 "confident" => &mut goal.confident,
                 _ => &mut goal.exhausted,
             };

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::primitives::Type;
 use crate::rules::Value;
 
-const UNITS: &[(&str, Type, f64)] = &[
+pub(in crate::lang) const UNITS: &[(&str, Type, f64)] = &[
     ("mm", Type::Length, 1e-3),
     ("cm", Type::Length, 1e-2),
     ("m", Type::Length, 1.0),
@@ -18,7 +18,7 @@ const UNITS: &[(&str, Type, f64)] = &[
 ];
 
 /// Nouns after whole numbers.
-pub(super) const NOUNS: &[&str] = &["views", "voxels"];
+pub(in crate::lang) const NOUNS: &[&str] = &["views", "voxels"];
 
 /// The units and nouns that can follow a number.
 pub(super) fn all() -> impl Iterator<Item = &'static str> {
@@ -26,12 +26,12 @@ pub(super) fn all() -> impl Iterator<Item = &'static str> {
 }
 
 /// A unit: its name, its type, and what one of it is in SI units.
-pub(super) fn find(unit: &str) -> Option<(&'static str, Type, f64)> {
+pub(in crate::lang) fn find(unit: &str) -> Option<(&'static str, Type, f64)> {
     UNITS.iter().find(|(name, ..)| *name == unit).copied()
 }
 
 /// The units of a type, the usual one first.
-pub(super) fn of(ty: Type) -> Vec<&'static str> {
+pub(in crate::lang) fn of(ty: Type) -> Vec<&'static str> {
     UNITS
         .iter()
         .filter(|(_, t, _)| *t == ty)
@@ -41,7 +41,7 @@ pub(super) fn of(ty: Type) -> Vec<&'static str> {
 
 /// A number of a unit as a constant. A factor below one divides by its whole
 /// inverse, so that `10 mm` is the same number as `0.01 m`.
-pub(super) fn value(ty: Type, number: f64, si: f64) -> Value {
+pub(in crate::lang) fn value(ty: Type, number: f64, si: f64) -> Value {
     let inverse = (1.0 / si).round();
     let whole = si < 1.0 && (1.0 / inverse - si).abs() < 1e-15;
     let x = if whole { number / inverse } else { number * si };
@@ -68,7 +68,7 @@ pub(super) fn is_quantity(ty: Type) -> bool {
 }
 
 /// A type with its article.
-pub(super) fn describe(ty: Type) -> String {
+pub(in crate::lang) fn describe(ty: Type) -> String {
     match ty {
         Type::Length => "a length".into(),
         Type::Angle => "an angle".into(),
@@ -103,7 +103,7 @@ fn plural(ty: Type) -> String {
 }
 
 /// How a value of a type is written, as an example.
-pub(super) fn example(ty: Type) -> Option<&'static str> {
+pub(in crate::lang) fn example(ty: Type) -> Option<&'static str> {
     Some(match ty {
         Type::Length => "like `10 mm`",
         Type::Angle => "like `30 deg`",
@@ -127,7 +127,7 @@ pub(super) fn named(word: &str) -> Option<(&'static str, Type)> {
 }
 
 /// Names of types in parameter lists.
-pub(super) const NAMED: &[(&str, Type)] = &[
+pub(in crate::lang) const NAMED: &[(&str, Type)] = &[
     ("length", Type::Length),
     ("angle", Type::Angle),
     ("share", Type::Share),
