@@ -28,7 +28,7 @@ pub use world::{MOST_BYTES, Memory, ReadFailure, World};
 use crate::primitives::Primitive;
 
 /// The language edition that this build reads.
-pub const EDITION: u32 = 1;
+pub const EDITION: u32 = crate::rules::LANGUAGE;
 
 /// Compiles the program at `path`. Never panics, whatever the input.
 pub fn compile(path: &str, world: &dyn World) -> Compilation {

@@ -8,6 +8,7 @@ mod behind;
 mod completed_square;
 mod prism_over;
 mod pyramid_over;
+mod rectangle_by_marker;
 mod rectangle_on;
 mod rigid_marker;
 mod triangle_to;
@@ -30,6 +31,7 @@ type PointOf = fn(&Arguments) -> Result<Option<Point>, BadArgument>;
 
 const PREDICTORS: &[(&str, Predictor)] = &[
     ("rectangle_on", rectangle_on::predict),
+    ("rectangle_by_marker", rectangle_by_marker::predict),
     ("triangle_to", triangle_to::predict),
     ("completed_square", completed_square::predict),
     ("prism_over", prism_over::predict),

@@ -8,10 +8,12 @@ mod artefact;
 mod expr;
 mod library;
 mod scene;
+#[cfg(test)]
+mod schema;
 mod task;
 
 pub(crate) use artefact::hex;
-pub use artefact::{FORMAT, Place, ReadError, RuleSet, Source};
+pub use artefact::{FORMAT, LANGUAGE, Place, ReadError, RuleSet, Source};
 pub use expr::{BadArgument, Call, Colour, Expr, Value};
 pub use library::{Class, Each, Feature, FeatureId, FeatureKind, Library, Presence, Rule};
 pub use scene::{Backdrop, Marker, Scene, SceneObject};

@@ -9,6 +9,7 @@ mod agreement;
 mod build;
 mod expected;
 mod expressions;
+mod facts;
 mod guard;
 mod libraries;
 mod recover;
