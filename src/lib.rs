@@ -12,6 +12,7 @@ pub mod detect;
 pub mod geometry;
 pub mod ide;
 pub mod lang;
+pub mod lsp;
 pub mod map;
 pub mod plan;
 pub mod predict;

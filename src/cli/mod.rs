@@ -3,6 +3,7 @@
 mod check;
 mod compile;
 mod files;
+mod lsp;
 mod plan;
 
 pub use files::Disk;
@@ -25,6 +26,7 @@ struct Cli {
 enum Verb {
     Check(check::Check),
     Compile(compile::Compile),
+    Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
 }
 
@@ -65,6 +67,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let outcome = match cli.verb {
         Verb::Check(check) => check::run(&check),
         Verb::Compile(compile) => compile::run(&compile),
+        Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
     };
     match outcome {

@@ -31,10 +31,10 @@ pub use complete::{Completion, CompletionKind, complete};
 pub use folding::{Fold, FoldKind, folds};
 pub use hints::{Hint, HintKind, hints};
 pub use hover::{Hover, hover};
-pub use navigate::{definition, occurrences};
+pub use navigate::{definition, occurrences, references};
 pub use outline::{Symbol, SymbolKind, outline};
 pub use rename::{Refusal, Renamed, rename, renameable};
-pub use semantic::{Meaning, Piece, semantic};
+pub use semantic::{Meaning, Piece, semantic, standard_module};
 pub use signature::{Help, signature_help};
 
 /// The file of a snapshot that its editor shows.

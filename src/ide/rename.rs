@@ -6,10 +6,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use super::navigate::{Target, file, path, target, uses};
 use super::semantic::is_standard;
 use super::{MAIN, Snapshot};
 use crate::lang::index::{Entity, Occurrence};
-use crate::lang::{ReadFailure, SourceFile, World, vocabulary};
+use crate::lang::{ReadFailure, World, normal, vocabulary};
 use crate::primitives;
 
 /// Why something is not renamed, in a sentence.
@@ -19,9 +20,6 @@ pub struct Refusal(String);
 
 /// The places to change, by path, in the order of each text.
 pub type Renamed = BTreeMap<String, Vec<Range<usize>>>;
-
-/// A declaration as every program of a workspace knows it: the file and the byte.
-type Target = (String, usize);
 
 /// Whether the name at a byte of the main file can be renamed, and where it stands.
 ///
@@ -93,50 +91,6 @@ fn valid(new: &str) -> Result<(), Refusal> {
     Ok(())
 }
 
-fn target(program: &Snapshot, entity: Entity) -> Option<Target> {
-    match entity {
-        Entity::Declared(_, at) => Some((path(program.sources().get(at.file)?), at.start)),
-        _ => None,
-    }
-}
-
-/// Paths are compared without detours.
-fn path(file: &SourceFile) -> String {
-    normal(&file.display)
-}
-
-/// A path without `.` and without `..` behind a folder.
-pub(super) fn normal(path: &str) -> String {
-    let mut parts: Vec<&str> = Vec::new();
-    for part in path.split('/') {
-        match part {
-            "." => {}
-            ".." if parts.last().is_some_and(|p| !p.is_empty() && *p != "..") => drop(parts.pop()),
-            _ => parts.push(part),
-        }
-    }
-    parts.join("/")
-}
-
-/// Where a program names a target.
-fn uses(program: &Snapshot, target: &Target) -> Vec<(String, Range<usize>)> {
-    let declared = program.sources().all().find(|(_, file)| path(file) == target.0);
-    let Some((file, _)) = declared else {
-        return Vec::new();
-    };
-    let Some(entity) = program
-        .index()
-        .of(file)
-        .iter()
-        .find(|o| o.declares && o.span.start == target.1)
-    else {
-        return Vec::new();
-    };
-    let all = program.index().all(entity.entity);
-    all.filter_map(|o| Some((path(program.sources().get(o.span.file)?), o.span.start..o.span.end)))
-        .collect()
-}
-
 /// The texts of a program that change, as they will be.
 fn texts(program: &Snapshot, places: &Renamed, new: &str) -> Vec<(String, String)> {
     let changed = program.sources().all().filter_map(|(_, file)| {
@@ -195,14 +149,14 @@ fn keeps_its_meaning(
     Ok(())
 }
 
+/// The name as it was.
 fn written(program: &Snapshot, target: &Target) -> String {
     let uses = uses(program, target);
     let here = uses
         .iter()
         .find(|(path, range)| (path, range.start) == (&target.0, target.1));
-    let file = program.sources().all().find(|(_, file)| path(file) == target.0);
     let text = here
-        .zip(file)
+        .zip(file(program, target))
         .and_then(|((_, range), (_, file))| file.text.get(range.clone()));
     text.unwrap_or_default().to_owned()
 }

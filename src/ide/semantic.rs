@@ -3,6 +3,7 @@
 use super::{MAIN, Snapshot};
 use crate::lang::index::{Entity, Kind, Occurrence};
 use crate::lang::syntax::{Token, TokenClass};
+use crate::lang::{FileId, vocabulary};
 
 /// What a piece of text is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -123,11 +124,19 @@ fn meaning(snapshot: &Snapshot, entity: Entity) -> Meaning {
 
 /// Whether an entity is of the language or of a module of its library.
 pub(super) fn is_standard(snapshot: &Snapshot, entity: Entity) -> bool {
-    let file = match entity {
-        Entity::Declared(_, at) => at.file,
-        Entity::Module(file) => file,
-        _ => return true,
-    };
-    let path = snapshot.sources().get(file).map_or("", |f| f.display.as_str());
-    file != MAIN && crate::lang::vocabulary::modules().any(|(name, _)| path == format!("std/{name}.vpl"))
+    match entity {
+        Entity::Declared(_, at) => standard_module(snapshot, at.file).is_some(),
+        Entity::Module(file) => standard_module(snapshot, file).is_some(),
+        _ => true,
+    }
+}
+
+/// The module of the standard library that a file is.
+pub fn standard_module(snapshot: &Snapshot, file: FileId) -> Option<&'static str> {
+    let path = &snapshot.sources().get(file)?.display;
+    let name = path.strip_prefix("std/")?.strip_suffix(".vpl")?;
+    let known = vocabulary::modules()
+        .map(|(module, _)| module)
+        .find(|module| *module == name);
+    known.filter(|_| file != MAIN)
 }

@@ -1,12 +1,15 @@
 //! Every expression of a file, in the order of the text.
 
-use crate::lang::syntax::tree::{Expr, ExprKind, File, Item, Library, TaskStatementKind as Kind};
+use crate::lang::syntax::tree::{Expr, ExprKind, File, Item, Library, Parameter, TaskStatementKind as Kind};
 
 /// Calls `see` with every expression, the outer before the inner.
 pub(super) fn expressions<'t>(file: &'t File, see: &mut impl FnMut(&'t Expr)) {
     for item in &file.items {
         match item {
-            Item::Let(item) => inside(&item.body, see),
+            Item::Let(item) => {
+                defaults(&item.parameters, see);
+                inside(&item.body, see);
+            }
             Item::Library(library) => in_library(library, see),
             Item::Task(task) => task.statements.iter().for_each(|s| in_statement(&s.kind, see)),
             Item::Scene(scene) => {
@@ -24,7 +27,15 @@ pub(super) fn expressions<'t>(file: &'t File, see: &mut impl FnMut(&'t Expr)) {
     }
 }
 
+fn defaults<'t>(parameters: &'t [Parameter], see: &mut impl FnMut(&'t Expr)) {
+    let defaults = parameters.iter().filter_map(|p| p.default.as_ref());
+    defaults.for_each(|e| inside(e, see));
+}
+
 fn in_library<'t>(library: &'t Library, see: &mut impl FnMut(&'t Expr)) {
+    defaults(library.parameters.as_deref().unwrap_or_default(), see);
+    let arguments = library.uses.iter().flat_map(|u| &u.arguments);
+    arguments.for_each(|a| inside(&a.value, see));
     let rows = library
         .tables
         .iter()

@@ -23,7 +23,7 @@ pub use analysis::{Analysis, Compilation, Expansion, analyse};
 pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use syntax::{Token, TokenClass, tokens};
-pub use world::{MOST_BYTES, Memory, ReadFailure, World};
+pub use world::{MOST_BYTES, Memory, ReadFailure, World, normal};
 
 use crate::primitives::Primitive;
 

@@ -47,7 +47,6 @@ pub struct Completion {
 #[expect(missing_docs, reason = "they say what they are")]
 pub enum CompletionKind {
     Keyword,
-    Item,
     Function,
     Constant,
     Feature,

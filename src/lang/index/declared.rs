@@ -38,6 +38,7 @@ impl Reading {
                 Item::Let(item) => self.item(Kind::Definition, &item.name),
                 Item::Library(library) => self.library(library),
                 Item::Task(task) => self.item(Kind::Task, &task.name),
+                Item::Test(_) => {}
                 Item::Scene(scene) => {
                     self.item(Kind::Scene, &scene.name);
                     for object in &scene.objects {

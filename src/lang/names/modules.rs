@@ -6,7 +6,7 @@ use super::suggest::{did_you_mean, one_of};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::{FileId, SourceFile, SourceMap, Span};
 use crate::lang::syntax::{self, tree};
-use crate::lang::world::{MOST_BYTES, ReadFailure, World};
+use crate::lang::world::{MOST_BYTES, ReadFailure, World, normal};
 use crate::lang::{EDITION, stdlib};
 
 /// Most modules of a program; imports nest no deeper.
@@ -263,30 +263,5 @@ fn title(key: &Key) -> String {
     match key {
         Key::Standard(name) => format!("std.{name}"),
         Key::User(path) => path.clone(),
-    }
-}
-
-/// A path without `.` and without `..` behind a folder.
-fn normal(path: &str) -> String {
-    let mut parts: Vec<&str> = Vec::new();
-    for part in path.split('/') {
-        match part {
-            "" | "." => {}
-            ".." if parts.last().is_some_and(|p| *p != "..") => drop(parts.pop()),
-            _ => parts.push(part),
-        }
-    }
-    parts.join("/")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::normal;
-
-    #[test]
-    fn paths_are_compared_without_detours() {
-        assert_eq!(normal("a/./b/../c.vpl"), "a/c.vpl");
-        assert_eq!(normal("../../x.vpl"), "../../x.vpl");
-        assert_eq!(normal("a/../../x.vpl"), "../x.vpl");
     }
 }
