@@ -77,7 +77,7 @@ fn declared(snapshot: &Snapshot, kind: Kind, name: Span) -> Option<Description> 
     let above = docs::above(text, name.start);
     Some(match found {
         Declaration::Let(item) => definition(snapshot, item).docs(above),
-        Declaration::Parameter(item, k) => parameter(snapshot, item, k)?,
+        Declaration::Parameter(owner, found) => parameter(snapshot, owner, found),
         Declaration::Library(library) => of_library(snapshot, library).docs(above),
         Declaration::Feature(library, feature) => of_feature(snapshot, library, feature).docs(above),
         Declaration::Class => class(snapshot, name).docs(above),
@@ -113,7 +113,9 @@ fn definition(snapshot: &Snapshot, item: &tree::Let) -> Description {
 /// `large_qr(text: text) -> detector`.
 pub(super) fn call(name: &str, signature: &Signature) -> String {
     let parameters = signature.parameters.iter();
-    let parameters: Vec<String> = parameters.map(|p| format!("{}: {}", p.name, type_name(p.ty))).collect();
+    let mark = |optional| if optional { "?" } else { "" };
+    let parameters = parameters.map(|p| format!("{}: {}{}", p.name, type_name(p.ty), mark(p.optional)));
+    let parameters: Vec<String> = parameters.collect();
     let list = match parameters.as_slice() {
         [] => String::new(),
         all => format!("({})", all.join(", ")),
@@ -125,15 +127,14 @@ pub(super) fn type_name(ty: Option<Type>) -> String {
     ty.map_or_else(|| "?".to_owned(), written)
 }
 
-fn parameter(snapshot: &Snapshot, item: &tree::Let, k: usize) -> Option<Description> {
-    let signature = snapshot.index().signature(item.name.span)?;
-    let parameter = signature.parameters.get(k)?;
-    let code = format!("{}: {}", parameter.name, type_name(parameter.ty));
-    let out = Description::new(code).fact(format!("A parameter of `{}`.", item.name.text));
-    Some(match parameter.ty {
+fn parameter(snapshot: &Snapshot, owner: &tree::Name, found: &tree::Parameter) -> Description {
+    let span = found.default.as_ref().map_or(found.ty.span, |default| default.span);
+    let code = excerpt(snapshot, found.name.span.to(span));
+    let out = Description::new(code).fact(format!("A parameter of `{}`.", owner.text));
+    match snapshot.index().type_of(found.name.span) {
         Some(ty) => out.docs(in_words(ty)),
         None => out,
-    })
+    }
 }
 
 /// `A length, like `10 mm`.`

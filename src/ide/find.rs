@@ -2,15 +2,15 @@
 
 use crate::lang::Span;
 use crate::lang::syntax::tree::{
-    Feature, FeatureRef, File, Index, Item, Layout, Let, Library, Object, Rule, Scene, Task,
+    Feature, FeatureRef, File, Index, Item, Layout, Let, Library, Name, Object, Parameter, Rule, Scene, Task,
 };
 
 /// A declaration with what it stands in.
 #[derive(Clone, Copy)]
 pub(super) enum Declaration<'t> {
     Let(&'t Let),
-    /// A parameter of a definition, by its place in the list.
-    Parameter(&'t Let, usize),
+    /// A parameter of a definition or a template, and that one's name.
+    Parameter(&'t Name, &'t Parameter),
     Library(&'t Library),
     Feature(&'t Library, &'t Feature),
     /// A class, or a row of a table.
@@ -42,20 +42,26 @@ fn in_let(item: &Let, name: Span) -> Option<Declaration<'_>> {
     if item.name.span == name {
         return Some(Declaration::Let(item));
     }
-    let parameter = item.parameters.iter().position(|p| p.name.span == name)?;
-    Some(Declaration::Parameter(item, parameter))
+    parameter(&item.name, &item.parameters, name)
+}
+
+fn parameter<'t>(owner: &'t Name, parameters: &'t [Parameter], name: Span) -> Option<Declaration<'t>> {
+    let found = parameters.iter().find(|p| p.name.span == name)?;
+    Some(Declaration::Parameter(owner, found))
 }
 
 fn in_library(library: &Library, name: Span) -> Option<Declaration<'_>> {
     if library.name.span == name {
         return Some(Declaration::Library(library));
     }
+    let parameters = library.parameters.as_deref().unwrap_or_default();
     let feature = library.features.iter().find(|f| f.name.name.span == name);
     let class = library.classes.iter().find(|c| c.name.span == name);
     let layout = library.layouts.iter().find(|l| l.name.span == name);
     let row = library.tables.iter().flat_map(|t| &t.rows).any(|r| r.name.span == name);
     feature
         .map(|f| Declaration::Feature(library, f))
+        .or_else(|| parameter(&library.name, parameters, name))
         .or_else(|| class.map(|_| Declaration::Class))
         .or_else(|| layout.map(Declaration::Layout))
         .or_else(|| row.then_some(Declaration::Class))

@@ -34,7 +34,7 @@ fn defaults<'t>(parameters: &'t [Parameter], see: &mut impl FnMut(&'t Expr)) {
 
 fn in_library<'t>(library: &'t Library, see: &mut impl FnMut(&'t Expr)) {
     defaults(library.parameters.as_deref().unwrap_or_default(), see);
-    let arguments = library.uses.iter().flat_map(|u| &u.arguments);
+    let arguments = library.uses.iter().flat_map(|u| &u.call.arguments);
     arguments.for_each(|a| inside(&a.value, see));
     let rows = library
         .tables

@@ -3,7 +3,6 @@
 use super::Word;
 use super::context::{Block, Context};
 use crate::ide::{MAIN, Snapshot};
-use crate::lang::index::Signature;
 use crate::lang::syntax::TokenClass;
 use crate::lang::{callable, vocabulary};
 use crate::primitives::Type;
@@ -206,30 +205,25 @@ pub(in crate::ide) fn is_word(word: Word<'_>) -> bool {
     word.text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
 }
 
-/// How something that can be called is called: from the file's scope or the registry.
-pub(in crate::ide) fn signature_of(snapshot: &Snapshot, name: &str) -> Option<Signature> {
-    if let Some((_, at)) = snapshot.index().scope(MAIN).find(|(n, _)| *n == name) {
-        return snapshot.index().signature(at).cloned();
+/// The parameters of something that can be called, with their types: of the file's
+/// scope or the registry.
+pub(in crate::ide) fn parameters(snapshot: &Snapshot, callee: &str) -> Option<Vec<(String, Option<Type>)>> {
+    let index = snapshot.index();
+    let declared = index.scope(MAIN).chain(index.libraries(MAIN)).find(|(name, _)| *name == callee);
+    if let Some((_, at)) = declared {
+        let parameters = index.signature(at)?.parameters.iter();
+        return Some(parameters.map(|p| (p.name.clone(), p.ty)).collect());
     }
-    let primitive = callable(name)?;
-    let parameters = primitive.parameters.iter().map(|p| crate::lang::index::Parameter {
-        name: p.name.to_owned(),
-        ty: Some(p.ty),
-    });
-    Some(Signature {
-        parameters: parameters.collect(),
-        result: Some(primitive.result),
-        features: primitive.features,
-    })
+    let parameters = callable(callee)?.parameters.iter();
+    Some(parameters.map(|p| (p.name.to_owned(), Some(p.ty))).collect())
 }
 
 /// The type of an argument, by its name or its place.
 fn parameter(snapshot: &Snapshot, callee: &str, place: usize, named: Option<&str>) -> Option<Type> {
-    let signature = signature_of(snapshot, callee)?;
-    let mut parameters = signature.parameters.iter();
+    let mut parameters = parameters(snapshot, callee)?.into_iter();
     match named {
-        Some(name) => parameters.find(|p| p.name == name)?.ty,
-        None => parameters.nth(place)?.ty,
+        Some(wanted) => parameters.find(|(name, _)| name == wanted)?.1,
+        None => parameters.nth(place)?.1,
     }
 }
 

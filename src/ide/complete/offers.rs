@@ -1,14 +1,14 @@
 //! What fits at the cursor.
 
 use super::context::{Block, Context, Word};
-use super::due::{Frame, Reading, is_word, signature_of};
+use super::due::{Frame, Reading, is_word, parameters};
 use super::imports::{self, defined};
 use super::snippets::{keyword, statements};
 use super::standard;
 use super::{Completion, CompletionKind as Kind};
 use crate::ide::describe::type_name;
+use crate::ide::find::{Declaration, declaration};
 use crate::ide::{MAIN, Snapshot, docs};
-use crate::lang::index::Signature;
 use crate::lang::syntax::TokenClass;
 use crate::lang::syntax::tree::{self, Index, Item};
 use crate::lang::{World, vocabulary};
@@ -25,6 +25,9 @@ pub(super) fn offers(snapshot: &Snapshot, world: &dyn World, context: &Context<'
     };
     offering.all()
 }
+
+/// Most libraries whose features are looked at.
+const MOST_TAKEN: usize = 64;
 
 struct Offering<'a> {
     snapshot: &'a Snapshot,
@@ -180,8 +183,31 @@ impl Offering<'_> {
         self.snapshot.library(self.context.library.as_deref()?)
     }
 
+    /// The features of the library, those that it takes over included.
+    fn declared_features(&self) -> Vec<&tree::Feature> {
+        let mut libraries: Vec<&tree::Library> = self.library().into_iter().collect();
+        let mut next = 0;
+        while let Some(library) = libraries.get(next).copied().filter(|_| next < MOST_TAKEN) {
+            let taken = library.uses.iter().filter_map(|inclusion| self.taken(library, inclusion));
+            libraries.extend(taken.collect::<Vec<_>>());
+            next += 1;
+        }
+        libraries.iter().flat_map(|l| &l.features).collect()
+    }
+
+    /// A library that another takes over.
+    fn taken(&self, library: &tree::Library, inclusion: &tree::Inclusion) -> Option<&tree::Library> {
+        let file = library.name.span.file;
+        let mut known = self.snapshot.index().libraries(file);
+        let (_, at) = known.find(|(name, _)| *name == inclusion.call.name.text)?;
+        match declaration(self.snapshot.tree(at.file)?, at)? {
+            Declaration::Library(library) => Some(library),
+            _ => None,
+        }
+    }
+
     fn features(&self) -> Vec<Completion> {
-        let features = self.library().into_iter().flat_map(|l| &l.features);
+        let features = self.declared_features().into_iter();
         features
             .map(|feature| {
                 let name = &feature.name.name.text;
@@ -230,8 +256,12 @@ impl Offering<'_> {
             .collect()
     }
 
+    fn feature(&self, name: &str) -> Option<&tree::Feature> {
+        self.declared_features().into_iter().find(|f| f.name.name.text == name)
+    }
+
     fn kind_of(&self, feature: &str) -> Option<FeatureKind> {
-        let declared = self.library()?.features.iter().find(|f| f.name.name.text == feature)?;
+        let declared = self.feature(feature)?;
         vocabulary::kinds()
             .find(|(name, _)| *name == declared.kind.text)
             .map(|(_, kind)| kind)
@@ -340,32 +370,27 @@ impl Offering<'_> {
         } else {
             self.values(self.reading.due)
         };
-        if let Some(signature) = signature_of(self.snapshot, callee).filter(|_| begins) {
-            let form = vocabulary::forms(self.reading.keyword())
-                .iter()
-                .find(|f| f.name == callee);
-            offers.extend(self.argument_names(callee, &signature, form.is_some()));
+        if begins && !vocabulary::forms(self.reading.keyword()).iter().any(|f| f.name == callee) {
+            offers.extend(self.argument_names(callee));
         }
         offers
     }
 
-    fn argument_names(&self, callee: &str, signature: &Signature, positional: bool) -> Vec<Completion> {
+    fn argument_names(&self, callee: &str) -> Vec<Completion> {
         let open = self.reading.callee.map_or(0, |w| w.at);
         let given = |name: &str| self.context.statement.iter().any(|w| w.at > open && w.text == name);
         let docs = |name: &str| {
-            let declared = crate::lang::callable(callee)?
-                .parameters
-                .iter()
-                .find(|p| p.name == name)?;
+            let declared = crate::lang::callable(callee)?.parameters.iter().find(|p| p.name == name)?;
             Some(declared.doc)
         };
-        let parameters = signature.parameters.iter().filter(|p| !positional && !given(&p.name));
+        let parameters = parameters(self.snapshot, callee).unwrap_or_default().into_iter();
         parameters
-            .map(|p| {
-                Completion::new(format!("{}:", p.name), Kind::Argument)
-                    .detail(type_name(p.ty))
-                    .docs(docs(&p.name).unwrap_or_default())
-                    .snippet(format!("{}: $0", p.name))
+            .filter(|(name, _)| !given(name))
+            .map(|(name, ty)| {
+                Completion::new(format!("{name}:"), Kind::Argument)
+                    .detail(type_name(ty))
+                    .docs(docs(&name).unwrap_or_default())
+                    .snippet(format!("{name}: $0"))
                     .rank(0)
             })
             .collect()

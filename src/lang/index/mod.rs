@@ -34,7 +34,7 @@ pub enum Kind {
     Object,
     /// `let`.
     Definition,
-    /// A parameter of a `let`.
+    /// A parameter of a `let` or of a template.
     Parameter,
     /// The variable of a `for each`.
     Variable,
@@ -109,24 +109,28 @@ pub struct Occurrence {
     pub entity: Entity,
 }
 
-/// How a definition is called.
+/// How a definition or a template is called.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Signature {
     /// Its parameters in order.
     pub parameters: Vec<Parameter>,
-    /// What it gives; `None` where it is wrong.
+    /// What a definition gives; `None` where it is wrong.
     pub result: Option<Type>,
     /// The kinds of feature that it detects, measures or predicts.
     pub features: &'static [FeatureKind],
 }
 
-/// A parameter of a definition.
+/// A parameter of a definition or a template.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name.
     pub name: String,
     /// Its type; `None` where that is unknown.
     pub ty: Option<Type>,
+    /// Whether it may be left out.
+    pub optional: bool,
+    /// Where it is declared.
+    pub at: Span,
 }
 
 /// What every name in a program denotes.
@@ -134,12 +138,14 @@ pub struct Parameter {
 pub struct Index {
     /// In the order of the text, none overlapping.
     occurrences: Vec<Occurrence>,
-    /// By the span of the definition's name.
+    /// By the span of the definition's or the library's name.
     signatures: BTreeMap<Span, Signature>,
     /// Of parameters and variables, by the span of their declaration.
     types: BTreeMap<Span, Type>,
     /// The definitions that each file can name.
     scopes: BTreeMap<FileId, BTreeMap<String, Span>>,
+    /// The libraries that each file can name.
+    libraries: BTreeMap<FileId, BTreeMap<String, Span>>,
 }
 
 impl Index {
@@ -163,7 +169,7 @@ impl Index {
         self.occurrences.iter().filter(move |o| o.entity == entity).copied()
     }
 
-    /// How a definition is called, by the span of its name.
+    /// How a definition or a template is called, by the span of its name.
     pub fn signature(&self, definition: Span) -> Option<&Signature> {
         self.signatures.get(&definition)
     }
@@ -176,6 +182,12 @@ impl Index {
     /// The definitions that a file can name, with the spans of their names.
     pub fn scope(&self, file: FileId) -> impl Iterator<Item = (&str, Span)> {
         let names = self.scopes.get(&file).into_iter().flatten();
+        names.map(|(name, span)| (name.as_str(), *span))
+    }
+
+    /// The libraries that a file can name, likewise.
+    pub fn libraries(&self, file: FileId) -> impl Iterator<Item = (&str, Span)> {
+        let names = self.libraries.get(&file).into_iter().flatten();
         names.map(|(name, span)| (name.as_str(), *span))
     }
 }

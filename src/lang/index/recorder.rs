@@ -8,25 +8,23 @@ use crate::lang::source::Span;
 use crate::lang::syntax::tree::Name;
 use crate::primitives::Type;
 
-/// Names that stand for something in one rule or one definition only.
-pub(in crate::lang) type Locals = BTreeMap<String, Entity>;
-
 /// Collects names as they are resolved.
 pub(in crate::lang) struct Recorder {
     index: Index,
-    /// Items and members: kind, the item around it, name.
-    declared: BTreeMap<(Kind, String, String), Span>,
-    locals: Locals,
+    /// Where members of libraries are declared, by kind and name.
+    members: declared::Members,
+    /// The variables of the rule that is being checked.
+    variables: BTreeMap<String, Entity>,
 }
 
 impl Recorder {
     /// Begins with everything that the trees of a program declare.
     pub fn new(program: &Program) -> Self {
-        let (index, declared) = declared::read(program);
+        let (index, members) = declared::read(program);
         Self {
             index,
-            declared,
-            locals: Locals::new(),
+            members,
+            variables: BTreeMap::new(),
         }
     }
 
@@ -39,31 +37,27 @@ impl Recorder {
         });
     }
 
-    /// The name of a library, or of a class or a layout in one.
-    pub fn member(&mut self, kind: Kind, owner: &str, name: &Name) {
-        let key = (kind, owner.to_owned(), name.text.clone());
-        if let Some(at) = self.declared.get(&key).copied() {
+    /// The name of a class or a layout that is declared inside of a span.
+    pub fn member(&mut self, kind: Kind, inside: Span, name: &Name) {
+        let declared = self.members.get(&(kind, name.text.clone()));
+        let within = |at: &&Span| at.file == inside.file && inside.start <= at.start && at.end <= inside.end;
+        if let Some(at) = declared.and_then(|all| all.iter().find(within)).copied() {
             self.uses(name.span, Entity::Declared(kind, at));
         }
     }
 
-    /// Begins a rule or a definition; gives the local names of what is around it.
-    pub fn enter(&mut self) -> Locals {
-        std::mem::take(&mut self.locals)
+    /// Begins a rule, which has variables of its own.
+    pub fn begin_rule(&mut self) {
+        self.variables.clear();
     }
 
-    /// Ends what [`Self::enter`] began.
-    pub fn leave(&mut self, around: Locals) {
-        self.locals = around;
-    }
-
-    /// Declares a local name, where it is not.
+    /// Declares a variable of the rule, where it is not.
     pub fn local(&mut self, kind: Kind, name: &Name, ty: Option<Type>) {
-        if self.locals.contains_key(&name.text) {
+        if self.variables.contains_key(&name.text) {
             return self.uses_local(name);
         }
         let entity = Entity::Declared(kind, name.span);
-        self.locals.insert(name.text.clone(), entity);
+        self.variables.insert(name.text.clone(), entity);
         self.index.types.extend(ty.map(|ty| (name.span, ty)));
         self.index.occurrences.push(Occurrence {
             span: name.span,
@@ -72,20 +66,22 @@ impl Recorder {
         });
     }
 
-    /// A local name that is used.
+    /// A variable of the rule that is used; other names are passed over.
     pub fn uses_local(&mut self, name: &Name) {
-        if let Some(entity) = self.locals.get(&name.text).copied() {
+        if let Some(entity) = self.variables.get(&name.text).copied() {
             self.uses(name.span, entity);
         }
     }
 
-    /// How a definition is called.
+    /// How a definition or a template is called.
     pub fn signature(&mut self, name: Span, signature: Signature) {
+        let types = signature.parameters.iter().filter_map(|p| Some((p.at, p.ty?)));
+        self.index.types.extend(types);
         self.index.signatures.insert(name, signature);
     }
 
-    /// The index. A template that is checked several times says the same several
-    /// times: the first word holds.
+    /// The index. What is checked several times says the same several times: the first
+    /// word holds.
     pub fn index(mut self) -> Index {
         let names = &mut self.index.occurrences;
         names.sort_by_key(|o| (o.span, !o.declares));

@@ -5,6 +5,7 @@
 //! definition comes down to.
 
 mod constants;
+mod environments;
 mod expand;
 mod layout;
 mod library;
@@ -18,7 +19,7 @@ use super::diagnostics::Diagnostic;
 use super::names::Program;
 use super::source::{SourceMap, Span};
 use super::types::typed;
-use crate::rules::{FORMAT, Place, RuleSet};
+use crate::rules::{FORMAT, Library, Place, RuleSet};
 
 /// The rule set as far as the program is right, with spans for the task checks.
 pub(super) struct Lowered {
@@ -56,8 +57,12 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
     let mut libraries = Vec::new();
     for library in &typed.libraries {
         let before = lowering.found.len();
-        let lowered = lowering.library(library);
-        libraries.push((lowered, library.whole && lowering.found.len() == before));
+        let (lowered, poses) = lowering.library(library);
+        libraries.push(LoweredLibrary {
+            library: lowered,
+            poses,
+            whole: library.whole && lowering.found.len() == before,
+        });
     }
     for task in &typed.tasks {
         if let Some((task, spans)) = lowering.task(task) {
@@ -70,8 +75,17 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         out.rules.scenes.push(lowered);
         out.backdrop_spans.push(scene.backdrop_span);
     }
-    (out.rules.libraries, out.whole) = libraries.into_iter().unzip();
+    (out.rules.libraries, out.whole) = libraries.into_iter().map(|l| (l.library, l.whole)).unzip();
     (out, lowering.found)
+}
+
+/// A library with what scenes need of it.
+struct LoweredLibrary {
+    library: Library,
+    /// By layout; `None` where a place is wrong.
+    poses: Vec<Option<layout::Poses>>,
+    /// Whether all of it was lowered.
+    whole: bool,
 }
 
 struct Lowering<'a> {

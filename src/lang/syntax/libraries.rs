@@ -56,11 +56,7 @@ impl Builder<'_> {
                 arguments: Vec::new(),
             },
         };
-        Some(Inclusion {
-            library: call.name,
-            arguments: call.arguments,
-            span: whole,
-        })
+        Some(Inclusion { call, span: whole })
     }
 
     /// It is reported, and read as if it stood where it should.

@@ -97,8 +97,8 @@ pub struct Library {
 /// `use tagged_box(width: 300 mm)`.
 #[derive(Clone, Debug)]
 pub struct Inclusion {
-    pub library: Name,
-    pub arguments: Vec<Argument>,
+    /// The library with its arguments, perhaps none.
+    pub call: Call,
     pub span: Span,
 }
 

@@ -86,7 +86,7 @@ impl Checker<'_> {
     }
 
     fn in_a_rule(&mut self, span: Span, scope: Scope<'_>) -> Option<()> {
-        if scope.rule.is_some() || scope.parameters.is_some() {
+        if scope.in_a_rule() {
             return Some(());
         }
         self.report(
@@ -180,6 +180,7 @@ impl Checker<'_> {
         };
         if index || parameter {
             self.names.uses_local(name);
+            self.uses_parameter(name, scope);
             return Some(TextPart::Hole(name.text.clone()));
         }
         let known: Vec<&str> = scope

@@ -4,29 +4,38 @@
 //! lowering expands. What is wrong is left out of it, and said once.
 
 mod calls;
+mod classes;
 pub(super) mod colours;
 mod expressions;
+mod fallbacks;
 pub(super) mod features;
 pub(super) mod forms;
+mod inclusion;
+mod layouts;
 mod library;
 mod operators;
+mod parameters;
 mod references;
 mod rule;
 mod scene;
 mod scope;
+mod shadowing;
 pub(super) mod task;
 pub(super) mod typed;
 pub(super) mod units;
 mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
-use super::diagnostics::{Code, Diagnostic};
+use super::diagnostics::Diagnostic;
 use super::index::{self, Entity, Index, Kind, Recorder};
-use super::names::{self, DefinitionId, Program, suggest::did_you_mean};
+use super::names::{self, DefinitionId, LibraryId, Program};
+use super::source::FileId;
 use super::syntax::tree;
 use crate::primitives::Type;
 use crate::rules::FeatureKind;
+use parameters::{Slot, visible};
 use scope::Scope;
 
 /// Checks a program.
@@ -34,16 +43,21 @@ pub(super) fn check(program: &Program) -> (typed::Program, Index, Vec<Diagnostic
     let mut checker = Checker {
         program,
         signatures: Vec::new(),
+        library_signatures: Vec::new(),
         definitions: (0..program.definitions.len()).map(|_| State::New).collect(),
+        libraries: vec![None; program.libraries.len()],
+        parts_taken: 0,
+        known_coverage: BTreeMap::new(),
         unknown: BTreeSet::new(),
         names: Recorder::new(program),
         found: Vec::new(),
     };
-    checker.signatures = (0..program.definitions.len())
-        .map(|k| checker.signature(DefinitionId(k)))
-        .collect();
+    checker.all_signatures();
     for k in 0..program.definitions.len() {
         checker.definition(DefinitionId(k));
+    }
+    for k in 0..program.libraries.len() {
+        checker.library(LibraryId(k));
     }
     let mut out = checker.items(&program.main().tree);
     checker.record_signatures();
@@ -53,11 +67,19 @@ pub(super) fn check(program: &Program) -> (typed::Program, Index, Vec<Diagnostic
 
 struct Checker<'a> {
     program: &'a Program,
-    /// The parameters of each definition, those of unknown type as `None`.
-    signatures: Vec<Vec<(String, Option<Type>)>>,
+    /// The parameters of each definition.
+    signatures: Vec<Vec<Slot>>,
+    /// The parameters of each library; none for one that is no template.
+    library_signatures: Vec<Vec<Slot>>,
     definitions: Vec<State>,
-    /// Unknown names that were reported, each once.
-    unknown: BTreeSet<String>,
+    /// By library; `None` until it is checked.
+    libraries: Vec<Option<Rc<typed::Library>>>,
+    /// How many parts of libraries were taken over so far.
+    parts_taken: usize,
+    /// By definition and parameter: whether all its uses stand before an `else`.
+    known_coverage: BTreeMap<(DefinitionId, usize), bool>,
+    /// Unknown names that were reported, each once a file.
+    unknown: BTreeSet<(FileId, &'static str, String)>,
     names: Recorder,
     found: Vec<Diagnostic>,
 }
@@ -67,20 +89,20 @@ enum State {
     New,
     /// Its body is being checked, or it is wrong.
     Unusable,
-    Done(typed::Definition),
+    Done(Rc<typed::Definition>),
 }
 
 impl State {
-    fn body(&self) -> Option<&typed::Expr> {
+    fn checked(&self) -> Option<Rc<typed::Definition>> {
         match self {
-            Self::Done(definition) => Some(&definition.body),
+            Self::Done(definition) => Some(Rc::clone(definition)),
             Self::New | Self::Unusable => None,
         }
     }
 
     fn done(self) -> Option<typed::Definition> {
         match self {
-            Self::Done(definition) => Some(definition),
+            Self::Done(definition) => Some(owned(definition)),
             Self::New | Self::Unusable => None,
         }
     }
@@ -91,42 +113,24 @@ impl<'a> Checker<'a> {
         self.found.push(diagnostic);
     }
 
-    fn signature(&mut self, id: DefinitionId) -> Vec<(String, Option<Type>)> {
-        let definition = self.program.definition(id);
-        let parameters = &definition.tree.parameters;
-        names::unique("parameter", parameters.iter().map(|p| &p.name), &mut self.found);
-        parameters
-            .iter()
-            .map(|p| (p.name.text.clone(), self.type_name(&p.ty)))
-            .collect()
+    /// Whether an unknown name of a kind is met for the first time in its file.
+    fn first_time(&mut self, kind: &'static str, name: &tree::Name) -> bool {
+        self.unknown.insert((name.span.file, kind, name.text.clone()))
     }
 
-    fn type_name(&mut self, name: &tree::TypeName) -> Option<Type> {
-        let element = &name.element;
-        let Some((word, mut ty)) = units::named(&element.text) else {
-            let known = units::NAMED.iter().map(|(name, _)| *name);
-            let help = did_you_mean(&element.text, known.clone())
-                .unwrap_or_else(|| format!("types are {}", known.collect::<Vec<_>>().join(", ")));
-            self.report(
-                Diagnostic::new(
-                    Code::E0201,
-                    element.span,
-                    format!("there is no type `{}`", element.text),
-                )
-                .help(help),
-            );
-            return None;
-        };
-        self.names.uses(element.span, Entity::Type(word));
-        for _ in 0..name.depth {
-            let Some(list) = units::list_of(ty) else {
-                let message = format!("there are no lists of {}", units::describe(ty));
-                self.report(Diagnostic::new(Code::E0301, name.span, message));
-                return None;
-            };
-            ty = list;
+    fn all_signatures(&mut self) {
+        let program = self.program;
+        for definition in &program.definitions {
+            let signature = self.signature(&definition.tree.parameters);
+            self.signatures.push(signature);
         }
-        Some(ty)
+        for k in 0..program.libraries.len() {
+            let parameters = program
+                .library(LibraryId(k))
+                .and_then(|(tree, _)| tree.parameters.as_deref());
+            let signature = self.signature(parameters.unwrap_or_default());
+            self.library_signatures.push(signature);
+        }
     }
 
     /// Checks a definition now if it was not before; its type, where it has one.
@@ -141,21 +145,21 @@ impl<'a> Checker<'a> {
         if definition.circular {
             return None;
         }
-        let parameters: BTreeMap<String, Option<Type>> = self.signatures[id.0].iter().cloned().collect();
+        let signature = self.signatures[id.0].clone();
+        let module = &program.modules[definition.module];
+        for parameter in &definition.tree.parameters {
+            self.hides_something("parameter", &parameter.name, Scope::of(module));
+        }
+        let defaults = self.defaults(&definition.tree.parameters, &signature, module);
+        let parameters = visible(&signature);
         let scope = Scope {
             parameters: Some(&parameters),
-            ..Scope::of(&program.modules[definition.module])
+            ..Scope::of(module)
         };
-        let around = self.names.enter();
-        for (parameter, (_, ty)) in definition.tree.parameters.iter().zip(&self.signatures[id.0]) {
-            self.names.local(Kind::Parameter, &parameter.name, *ty);
-        }
-        let body = self.infer(&definition.tree.body, scope);
-        self.names.leave(around);
-        let body = body?;
+        let body = self.infer(&definition.tree.body, scope)?;
         let ty = body.ty;
-        let parameters = self.signatures[id.0].iter().map(|(name, _)| name.clone()).collect();
-        self.definitions[id.0] = State::Done(typed::Definition { parameters, body });
+        let parameters = defaults?;
+        self.definitions[id.0] = State::Done(Rc::new(typed::Definition { parameters, body }));
         Some(ty)
     }
 
@@ -164,31 +168,43 @@ impl<'a> Checker<'a> {
         Entity::Declared(Kind::Definition, self.program.definition(id).tree.name.span)
     }
 
+    /// Records the name of a library.
+    fn uses_library(&mut self, name: &tree::Name, id: LibraryId) {
+        if let Some((library, _)) = self.program.library(id) {
+            self.names.uses(name.span, Entity::Declared(Kind::Library, library.name.span));
+        }
+    }
+
     fn record_signatures(&mut self) {
-        for (k, parameters) in self.signatures.iter().enumerate() {
+        for (k, slots) in self.signatures.iter().enumerate() {
             let id = DefinitionId(k);
-            let parameters = parameters.iter().map(|(name, ty)| index::Parameter {
-                name: name.clone(),
-                ty: *ty,
-            });
+            let body = self.definitions[k].checked();
             let signature = index::Signature {
-                parameters: parameters.collect(),
-                result: self.definitions[k].body().map(|body| body.ty),
+                parameters: slots.iter().map(parameter).collect(),
+                result: body.map(|definition| definition.body.ty),
                 features: self.features_of(id),
             };
-            self.names
-                .signature(self.program.definition(id).tree.name.span, signature);
+            self.names.signature(self.program.definition(id).tree.name.span, signature);
+        }
+        for (k, slots) in self.library_signatures.iter().enumerate() {
+            if let Some((library, _)) = self.program.library(LibraryId(k)) {
+                let signature = index::Signature {
+                    parameters: slots.iter().map(parameter).collect(),
+                    ..index::Signature::default()
+                };
+                self.names.signature(library.name.span, signature);
+            }
         }
     }
 
     /// The kinds of feature that a definition is for: those of its primitive.
     fn features_of(&self, id: DefinitionId) -> &'static [FeatureKind] {
-        let mut body = self.definitions[id.0].body();
+        let mut next = self.definitions[id.0].checked();
         // Definitions need no circle: whoever is done was checked after what it names.
-        while let Some(expr) = body {
-            match &expr.kind {
+        while let Some(definition) = next {
+            match &definition.body.kind {
                 typed::ExprKind::Primitive(primitive, _) => return primitive.features,
-                typed::ExprKind::Definition(next, _) => body = self.definitions[next.0].body(),
+                typed::ExprKind::Definition(inner, _) => next = self.definitions[inner.0].checked(),
                 _ => break,
             }
         }
@@ -198,14 +214,9 @@ impl<'a> Checker<'a> {
     fn items(&mut self, file: &'a tree::File) -> typed::Program {
         let mut out = typed::Program::default();
         let each = |want: fn(&tree::Item) -> Option<&tree::Name>| file.items.iter().filter_map(want);
-        names::unique("library", each(library_name), &mut self.found);
         names::unique("task", each(task_name), &mut self.found);
         names::unique("scene", each(scene_name), &mut self.found);
-        for item in &file.items {
-            if let tree::Item::Library(library) = item {
-                out.libraries.push(self.library(library));
-            }
-        }
+        out.libraries = self.listed(file);
         for item in &file.items {
             match item {
                 tree::Item::Task(task) => out.tasks.extend(self.task(task, &out.libraries)),
@@ -214,6 +225,29 @@ impl<'a> Checker<'a> {
             }
         }
         self.one_object_a_name(file);
+        out
+    }
+
+    /// The libraries that a task can name: those in the main file's scope that are no
+    /// templates, in the order of its text.
+    fn listed(&mut self, file: &tree::File) -> Vec<typed::Library> {
+        let main = self.program.main();
+        let mut seen = BTreeSet::new();
+        let mut out = Vec::new();
+        for name in file.items.iter().flat_map(names_of) {
+            let Some(Some(id)) = main.libraries.get(&name.text) else {
+                continue;
+            };
+            let template = self
+                .program
+                .library(*id)
+                .is_none_or(|(tree, _)| tree.parameters.is_some());
+            if template || !seen.insert(*id) {
+                continue;
+            }
+            let library = self.libraries[id.0].take();
+            out.extend(library.map(owned));
+        }
         out
     }
 
@@ -227,10 +261,12 @@ impl<'a> Checker<'a> {
     }
 }
 
-fn library_name(item: &tree::Item) -> Option<&tree::Name> {
-    match item {
-        tree::Item::Library(library) => Some(&library.name),
-        _ => None,
+fn parameter(slot: &Slot) -> index::Parameter {
+    index::Parameter {
+        name: slot.name.clone(),
+        ty: slot.ty,
+        optional: slot.optional,
+        at: slot.span,
     }
 }
 
@@ -246,4 +282,18 @@ fn scene_name(item: &tree::Item) -> Option<&tree::Name> {
         tree::Item::Scene(scene) => Some(&scene.name),
         _ => None,
     }
+}
+
+/// The libraries that an item may bring into scope.
+fn names_of(item: &tree::Item) -> &[tree::Name] {
+    match item {
+        tree::Item::Use(import) => &import.names,
+        tree::Item::Library(library) => std::slice::from_ref(&library.name),
+        _ => &[],
+    }
+}
+
+/// What is shared with nobody any more.
+fn owned<T: Clone>(shared: Rc<T>) -> T {
+    Rc::try_unwrap(shared).unwrap_or_else(|shared| (*shared).clone())
 }

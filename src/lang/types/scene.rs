@@ -65,20 +65,35 @@ impl<'a> Checker<'a> {
 
     fn marked(&mut self, marked: &tree::Marked, libraries: &[Library]) -> Option<Marked> {
         let Some(library) = libraries.iter().position(|l| l.name == marked.library.text) else {
-            self.unknown_item("library", &marked.library, libraries.iter().map(|l| l.name.as_str()));
+            self.no_library(&marked.library, libraries);
             return None;
         };
         let here = &libraries[library];
-        self.names.member(Kind::Library, "", &marked.library);
-        self.names.member(Kind::Layout, &here.name, &marked.layout);
-        self.names.member(Kind::Class, &here.name, &marked.class);
+        self.uses_listed(&marked.library);
+        let main = self.program.main();
         let layout = here.layouts.iter().position(|l| l.name == marked.layout.text);
         if layout.is_none() {
-            self.unknown_item("layout", &marked.layout, here.layouts.iter().map(|l| l.name.as_str()));
+            self.unknown_item(
+                "layout",
+                &marked.layout,
+                here.layouts.iter().map(|l| l.name.as_str()),
+                main,
+            );
+        }
+        if let Some(layout) = layout {
+            self.names.member(Kind::Layout, here.layouts[layout].span, &marked.layout);
         }
         let class = here.classes.iter().position(|c| c.name == marked.class.text);
         if class.is_none() {
-            self.unknown_item("class", &marked.class, here.classes.iter().map(|c| c.name.as_str()));
+            self.unknown_item(
+                "class",
+                &marked.class,
+                here.classes.iter().map(|c| c.name.as_str()),
+                main,
+            );
+        }
+        if let Some(class) = class {
+            self.names.member(Kind::Class, here.classes[class].span, &marked.class);
         }
         Some(Marked {
             library,
