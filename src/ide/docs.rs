@@ -59,6 +59,8 @@ const FIELDS: &[(&str, &str, &str)] = &[
 ];
 
 const WORDS: &[(&str, &str)] = &[
+    ("given", "What is supposed: features that are detected, absent, or measured somewhere."),
+    ("expect", "What must follow from what is given."),
     (
         "vpl",
         "The edition of the language that a file is written in: its first line.",

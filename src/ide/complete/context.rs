@@ -21,6 +21,7 @@ pub(in crate::ide) enum Block {
     /// The braces of `thresholds` or `sensor_model`.
     Fields(&'static str),
     Scene,
+    Test,
     /// The braces of an import.
     Imports,
     /// A text or a comment.
@@ -134,6 +135,7 @@ fn opened(around: Block, words: &[Word<'_>]) -> Block {
         (Block::Top, "library") => Block::Library,
         (Block::Top, "task") => Block::Task,
         (Block::Top, "scene") => Block::Scene,
+        (Block::Top, "test") => Block::Test,
         (Block::Top, "use") => Block::Imports,
         (Block::Library, "rule") => Block::Rule,
         (Block::Library, "layout") => Block::Layout,

@@ -71,6 +71,8 @@ const TURNS: &[(&str, Option<Type>)] = &[
     ("layout", None),
     ("rule", None),
     ("use", None),
+    ("given", None),
+    ("expect", None),
     ("let", None),
     ("thresholds", None),
     ("sensor_model", None),

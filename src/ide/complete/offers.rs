@@ -101,7 +101,8 @@ impl Offering<'_> {
                 let none = Completion::new("none", Kind::Word).docs("Empty air.");
                 vocabulary::forms("backdrop").iter().map(called).chain([none]).collect()
             }
-            "rule" | "by" => self.features(),
+            "rule" | "by" | "given" | "expect" => self.features(),
+            "use" => self.templates(),
             "in" => self.lists(),
             "for" => vec![keyword("each"), keyword("in")],
             "classes" => vec![keyword("by")],
@@ -180,7 +181,11 @@ impl Offering<'_> {
     // ---- Names --------------------------------------------------------------
 
     fn library(&self) -> Option<&tree::Library> {
-        self.snapshot.library(self.context.library.as_deref()?)
+        let named = self.context.before.windows(2).find(|w| w[0].text == "library");
+        match (self.context.block, named) {
+            (Block::Test, Some(words)) => self.snapshot.library(words[1].text),
+            _ => self.snapshot.library(self.context.library.as_deref()?),
+        }
     }
 
     /// The features of the library, those that it takes over included.
@@ -228,6 +233,15 @@ impl Offering<'_> {
             .text(feature.span)
             .trim_start_matches("feature ")
             .to_owned()
+    }
+
+    /// Libraries that another can take over.
+    fn templates(&self) -> Vec<Completion> {
+        let own = self.context.library.as_deref();
+        let known = self.snapshot.index().libraries(MAIN).filter(|(name, _)| Some(*name) != own);
+        known
+            .map(|(name, _)| Completion::new(name, Kind::Library).snippet(format!("{name}($0)")))
+            .collect()
     }
 
     fn libraries(&self) -> Vec<Completion> {

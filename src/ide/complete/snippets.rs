@@ -12,6 +12,7 @@ pub(super) fn statements(block: Block) -> Vec<Completion> {
         Block::Rule => RULE,
         Block::Task => TASK,
         Block::Scene => SCENE,
+        Block::Test => TEST,
         _ => &[],
     };
     words
@@ -37,12 +38,14 @@ const TOP: &[(&str, &str)] = &[
         "task",
         "task ${1:name} {\n  library    ${2:library}\n  goal       ${3:confident}\n  camera     ${4:kinect_v2}\n  space      cube(${5:600 mm}) at [0 mm, 0 mm, ${6:300 mm}] voxel ${7:10 mm}\n  views      sphere(radius: ${8:1.4 m}, count: 64)\n  thresholds { near: ${9:20 mm}, absent: 99 %, confidence: 99 % }\n  limit      20 views$0\n}",
     ),
+    ("test", "test \"${1:what holds}\" {\n  library ${2:library}\n  given  $3\n  expect $0\n}"),
     (
         "scene",
         "scene ${1:name} {\n  backdrop sphere(radius: 2 m, colour: grey)\n  object ${2:name} = $0 at [0 mm, 0 mm, 300 mm]\n}",
     ),
 ];
 const LIBRARY: &[(&str, &str)] = &[
+    ("use", "use ${1:library}($0)"),
     ("feature", "feature ${1:name} : ${2:polygon}"),
     ("class", "class ${1:name} { $0 }"),
     ("classes", "classes by $1 {\n  $0\n}"),
@@ -78,6 +81,11 @@ const TASK: &[(&str, &str)] = &[
     ("inspected", "inspected $0"),
     ("verify", "verify all"),
     ("sensor_model", "sensor_model { hit: ${1:70 %}, miss: ${2:40 %} }"),
+];
+const TEST: &[(&str, &str)] = &[
+    ("library", "library $0"),
+    ("given", "given $0"),
+    ("expect", "expect $0"),
 ];
 const SCENE: &[(&str, &str)] = &[
     ("backdrop", "backdrop sphere(radius: ${1:2 m}, colour: ${2:grey})"),
