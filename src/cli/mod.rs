@@ -5,6 +5,7 @@ mod compile;
 mod files;
 mod lsp;
 mod plan;
+mod why;
 
 pub use files::Disk;
 
@@ -28,6 +29,7 @@ enum Verb {
     Compile(compile::Compile),
     Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
+    Why(why::Why),
 }
 
 /// How a command ended; the numbers are its exit status.
@@ -53,9 +55,31 @@ pub(crate) enum Failure {
     /// A run could not be made or continued.
     #[error("error[E0603]: {0}")]
     Run(String),
+    /// A run log cannot be read.
+    #[error("error[E0711]: {0} cannot be read: {1}")]
+    Log(String, String),
+    /// A file is no run log.
+    #[error("error[E0712]: {0} is no run log: {1}")]
+    NoLog(String, String),
+    /// A question about something that a run does not know.
+    #[error("error[E0713]: {0}")]
+    Subject(String),
+    /// A question about a view that a run does not have.
+    #[error("error[E0714]: {0}")]
+    Moment(String),
     /// The command was called wrongly.
     #[error("error: {0}")]
     Usage(String),
+}
+
+impl Failure {
+    /// The exit status: 2 where the command was called wrongly.
+    fn status(&self) -> u8 {
+        match self {
+            Self::Usage(_) | Self::Subject(_) | Self::Moment(_) => 2,
+            _ => 1,
+        }
+    }
 }
 
 /// Runs the program with its arguments, the program's name first.
@@ -69,6 +93,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Compile(compile) => compile::run(&compile),
         Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Why(why) => why::run(&why),
     };
     match outcome {
         Ok(outcome) => ExitCode::from(outcome as u8),
@@ -76,7 +101,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(Failure::Write(_, error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
             let _ = writeln!(io::stderr(), "{failure}");
-            ExitCode::from(if matches!(failure, Failure::Usage(_)) { 2 } else { 1 })
+            ExitCode::from(failure.status())
         }
     }
 }

@@ -84,13 +84,13 @@ fn declared(snapshot: &Snapshot, kind: Kind, name: Span) -> Option<Description> 
         Declaration::Layout(layout) => rules_of(
             snapshot,
             layout.head,
-            Description::new(format!("layout {}", layout.name.text)).fact(format!("{} places", layout.places.len())),
+            Description::new(format!("layout {}", layout.name.text)).fact(format!("{}.", counted(layout.places.len(), "place"))),
         )
         .docs(above),
         Declaration::Variable(library, rule) => variable(snapshot, kind, library, rule, name),
         Declaration::Task(task) => of_task(snapshot, task).docs(above),
         Declaration::Scene(scene) => Description::new(format!("scene {}", scene.name.text))
-            .fact(format!("{} objects", scene.objects.len()))
+            .fact(format!("{}.", counted(scene.objects.len(), "object")))
             .docs(above),
         Declaration::Object(object) => Description::new(excerpt(snapshot, object.span)).docs(above),
     })
@@ -150,10 +150,10 @@ fn of_library(snapshot: &Snapshot, library: &tree::Library) -> Description {
     let out = Description::new(format!("library {}", library.name.text));
     match expanded(snapshot, library) {
         Some(rules) => out.fact(format!(
-            "{} features, {} classes, {} rules",
-            rules.features.len(),
-            rules.classes.len(),
-            rules.rules.len()
+            "{}, {}, {}.",
+            counted(rules.features.len(), "feature"),
+            counted(rules.classes.len(), "class"),
+            counted(rules.rules.len(), "rule")
         )),
         None => out,
     }
@@ -182,10 +182,10 @@ fn of_feature(snapshot: &Snapshot, library: &tree::Library, feature: &tree::Feat
     let with = rules.classes.iter().filter(|c| members().any(|id| c.presence.has(id)));
     let concluded = rules.rules.iter().filter(|r| members().any(|id| id == r.consequent));
     out.fact(format!(
-        "In {} of {} classes, concluded by {} rules.",
+        "In {} of {}, concluded by {}.",
         with.count(),
-        rules.classes.len(),
-        concluded.count()
+        counted(rules.classes.len(), "class"),
+        counted(concluded.count(), "rule")
     ))
 }
 
@@ -229,8 +229,7 @@ pub(super) fn rules_from(snapshot: &Snapshot, head: Span) -> usize {
 fn rules_of(snapshot: &Snapshot, head: Span, out: Description) -> Description {
     match rules_from(snapshot, head) {
         0 => out,
-        1 => out.fact("1 rule"),
-        n => out.fact(format!("{n} rules")),
+        n => out.fact(format!("{}.", counted(n, "rule"))),
     }
 }
 
@@ -281,9 +280,9 @@ fn of_task(snapshot: &Snapshot, task: &tree::Task) -> Description {
     };
     let cells = done.space.size.map(|x| (x / done.space.voxel).round());
     let views = primitives::poses(&done.views, &done.space).map_or(0, |poses| poses.len());
-    out.fact(format!("{views} candidate views, at most {} taken", done.limit))
-        .fact(format!("a map of {} × {} × {} voxels", cells.x, cells.y, cells.z))
-        .fact(format!("method `{}`", done.method))
+    out.fact(format!("{}, at most {} taken.", counted(views, "candidate view"), done.limit))
+        .fact(format!("A map of {} × {} × {} voxels.", cells.x, cells.y, cells.z))
+        .fact(format!("Method `{}`.", done.method))
 }
 
 fn module(snapshot: &Snapshot, file: FileId) -> Option<Description> {
@@ -347,6 +346,15 @@ fn unit(name: &str) -> Description {
     match one.filter(|_| si != 1.0) {
         Some(one) => out.fact(format!("1 {name} = {one}")),
         None => out,
+    }
+}
+
+/// `1 rule`, `2 classes`.
+pub(super) fn counted(n: usize, noun: &str) -> String {
+    match (n, noun.ends_with('s')) {
+        (1, _) => format!("1 {noun}"),
+        (_, true) => format!("{n} {noun}es"),
+        (_, false) => format!("{n} {noun}s"),
     }
 }
 

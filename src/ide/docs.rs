@@ -59,7 +59,10 @@ const FIELDS: &[(&str, &str, &str)] = &[
 ];
 
 const WORDS: &[(&str, &str)] = &[
-    ("given", "What is supposed: features that are detected, absent, or measured somewhere."),
+    (
+        "given",
+        "What is supposed: features that are detected, absent, or measured somewhere.",
+    ),
     ("expect", "What must follow from what is given."),
     (
         "vpl",

@@ -12,7 +12,7 @@ use super::syntax::tree;
 use super::types::{self, typed};
 use super::world::World;
 use super::{checks, lower};
-use crate::rules::RuleSet;
+use crate::rules::{Fact, RuleSet};
 
 /// A program whose names and types are checked.
 #[derive(Debug)]
@@ -29,6 +29,8 @@ pub struct Analysis {
 pub struct Expansion {
     /// The rule set as far as the program is right; `None` where it could not be read.
     pub rules: Option<RuleSet>,
+    /// The tests of the main file, as far as they are right.
+    pub facts: Vec<Fact>,
     /// Everything there is to say about the program, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -38,6 +40,8 @@ pub struct Expansion {
 pub struct Compilation {
     /// The compiled program; `Some` exactly when no diagnostic is an error.
     pub rules: Option<RuleSet>,
+    /// The tests of the main file; none where some diagnostic is an error.
+    pub facts: Vec<Fact>,
     /// Everything there is to say about it, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
     /// The files that were read. [`crate::rules::Place::file`] is a [`FileId`] here.
@@ -84,22 +88,32 @@ impl Analysis {
     /// Expands the program, and analyses its tasks.
     pub fn expand(&self) -> Expansion {
         let mut diagnostics = self.found.clone();
-        let rules = self.program.as_ref().map(|program| {
+        let lowered = self.program.as_ref().map(|program| {
             let (lowered, found) = lower::lower(program, &self.typed, &self.sources);
             diagnostics.extend(found);
             diagnostics.extend(checks::check(&lowered));
-            lowered.rules
+            (lowered.rules, lowered.facts)
         });
         diagnostics::in_order(&mut diagnostics);
-        Expansion { rules, diagnostics }
+        let (rules, facts) = lowered.unzip();
+        Expansion {
+            rules,
+            facts: facts.unwrap_or_default(),
+            diagnostics,
+        }
     }
 
     /// Compiles the program.
     pub fn compile(self) -> Compilation {
-        let Expansion { rules, diagnostics } = self.expand();
+        let Expansion {
+            rules,
+            facts,
+            diagnostics,
+        } = self.expand();
         let failed = diagnostics.iter().any(|d| d.severity == Severity::Error);
         Compilation {
             rules: rules.filter(|_| !failed),
+            facts: if failed { Vec::new() } else { facts },
             diagnostics,
             sources: self.sources,
         }

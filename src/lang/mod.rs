@@ -21,6 +21,7 @@ mod world;
 
 pub use analysis::{Analysis, Compilation, Expansion, analyse};
 pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
+pub(crate) use names::suggest::closest;
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use syntax::{Token, TokenClass, tokens};
 pub use world::{MOST_BYTES, Memory, ReadFailure, World, normal};

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use gen_lsp_types::{
-    ActiveParameter, CodeAction, CodeActionKind, CodeActionParams, CompletionList, Contents, DocumentHighlight,
-    DocumentHighlightKind, DocumentSymbol, FoldingRange, Hover, InlayHint, InlayHintKind, InlayHintParams, Location,
-    ParameterInformation, PrepareRenamePlaceholder, Range, ReferenceContext, SemanticTokens, SignatureHelp,
+    ActiveParameter, CodeAction, CodeActionKind, CompletionList, Contents, DocumentHighlight,
+    DocumentHighlightKind, DocumentSymbol, FoldingRange, Hover, InlayHint, InlayHintKind, Location,
+    ParameterInformation, PrepareRenamePlaceholder, Range, SemanticTokens, SignatureHelp,
     SignatureInformation, TextDocumentIdentifier, TextDocumentPositionParams, TextEdit, Uri, WorkspaceEdit,
 };
 
@@ -127,9 +127,9 @@ impl<'w> Open<'w> {
         }
     }
 
-    pub fn inlay_hints(&self, params: &InlayHintParams, every: bool) -> Vec<InlayHint> {
+    pub fn inlay_hints(&self, range: Range, every: bool) -> Vec<InlayHint> {
         let positions = self.positions();
-        let hints = ide::hints(self.snapshot, positions.bytes(params.range), every).into_iter();
+        let hints = ide::hints(self.snapshot, positions.bytes(range), every).into_iter();
         hints
             .map(|hint| InlayHint {
                 position: positions.position(hint.at),
@@ -145,17 +145,9 @@ impl<'w> Open<'w> {
     }
 
     /// The repairs of every diagnostic that touches the range.
-    pub fn code_actions(&self, params: &CodeActionParams) -> Vec<CodeAction> {
+    pub fn code_actions(&self, range: Range) -> Vec<CodeAction> {
         let positions = self.positions();
-        let asked = positions.bytes(params.range);
-        let wanted = params.context.only.as_ref();
-        if wanted.is_some_and(|kinds| {
-            !kinds
-                .iter()
-                .any(|k| matches!(k, CodeActionKind::Empty | CodeActionKind::QuickFix))
-        }) {
-            return Vec::new();
-        }
+        let asked = positions.bytes(range);
         let touches = |span: Span| span.file == MAIN && span.start <= asked.end && asked.start <= span.end;
         let diagnostics = self.snapshot.expansion().diagnostics.iter();
         let touched = diagnostics.filter(|d| touches(d.primary.span));
@@ -230,13 +222,13 @@ fn edits_by_file(edits: impl Iterator<Item = (Uri, TextEdit)>) -> WorkspaceEdit 
 pub(super) fn references(
     workspace: &mut Workspace,
     at: &TextDocumentPositionParams,
-    context: ReferenceContext,
+    declaration: bool,
 ) -> Option<Vec<Location>> {
     let (open, offset) = open_at(workspace, at)?;
     let (path, word) = open.word(offset)?;
     let programs = workspace.programs(&path, &word);
     let programs: Vec<&Snapshot> = programs.iter().collect();
-    let places = ide::references(&programs, offset, context.include_declaration);
+    let places = ide::references(&programs, offset, declaration);
     let mut found: Vec<Location> = places
         .into_iter()
         .filter_map(|(program, span)| convert::location(workspace, programs.get(program)?, span))

@@ -156,7 +156,7 @@ impl<W: Write> Server<W> {
                 Ok(Value::Null)
             }
             (State::Serving(serving), method) => {
-                answer(&mut serving.workspace, &serving.greeting, method, request.params)
+                answer(&mut serving.workspace, &serving.greeting, method, &request.params)
             }
         }
     }
@@ -247,4 +247,29 @@ fn with<P: DeserializeOwned>(params: Value, take: impl FnOnce(P)) {
 /// Standard output is the protocol's.
 fn log(text: &str) {
     let _ = writeln!(io::stderr(), "vpl lsp: {text}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn request(id: i32, method: &str) -> Message {
+        Request::new(id.into(), method.to_owned(), json!({})).into()
+    }
+
+    #[test]
+    fn a_request_can_be_taken_back_before_its_turn() {
+        let cancel = Notification::new("$/cancelRequest".to_owned(), json!({ "id": 2 }));
+        let mut server = Server {
+            output: Vec::new(),
+            waiting: [cancel.into(), request(3, "no/such")].into(),
+            state: State::New,
+        };
+        server.message(request(1, "initialize")).unwrap();
+        server.message(request(2, "no/such")).unwrap();
+        server.message(request(3, "no/such")).unwrap();
+        let said = String::from_utf8(server.output).unwrap();
+        assert!(said.contains("-32800") && said.contains("\"id\":2"), "{said}");
+        assert_eq!(said.matches("-32601").count(), 1, "{said}");
+    }
 }

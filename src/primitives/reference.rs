@@ -5,11 +5,13 @@ use std::fmt::Write as _;
 use super::{Default, Parameter, Primitive, Type, all};
 use crate::rules::Value;
 
-const SECTIONS: [(Type, &str); 8] = [
+const SECTIONS: [(Type, &str); 10] = [
     (Type::Detector, "Detectors"),
     (Type::Measure, "Measures"),
     (Type::Predictor, "Predictors"),
     (Type::Point, "Points"),
+    (Type::Polygon, "Faces"),
+    (Type::Edge, "Edges"),
     (Type::Views, "Candidate views"),
     (Type::Camera, "Cameras"),
     (Type::Shape, "Shapes of a scene"),

@@ -199,7 +199,7 @@ impl<'t> Reading<'t> {
 
 /// Keywords that can stand inside a statement.
 const CONTINUING: &[&str] = &[
-    "at", "facing", "voxel", "turned", "marked", "as", "prior", "and", "in", "by",
+    "at", "facing", "voxel", "turned", "marked", "as", "prior", "and", "in", "by", "class", "classes",
 ];
 
 /// Whether a token is a word rather than a mark or a number.
@@ -211,7 +211,10 @@ pub(in crate::ide) fn is_word(word: Word<'_>) -> bool {
 /// scope or the registry.
 pub(in crate::ide) fn parameters(snapshot: &Snapshot, callee: &str) -> Option<Vec<(String, Option<Type>)>> {
     let index = snapshot.index();
-    let declared = index.scope(MAIN).chain(index.libraries(MAIN)).find(|(name, _)| *name == callee);
+    let declared = index
+        .scope(MAIN)
+        .chain(index.libraries(MAIN))
+        .find(|(name, _)| *name == callee);
     if let Some((_, at)) = declared {
         let parameters = index.signature(at)?.parameters.iter();
         return Some(parameters.map(|p| (p.name.clone(), p.ty)).collect());

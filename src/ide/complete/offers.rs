@@ -45,6 +45,9 @@ impl Offering<'_> {
             Block::Top if import => return imports::offers(self.snapshot, self.world, self.context),
             _ => {}
         }
+        if matches!(self.reading.keyword(), "let" | "library") && self.context.block == Block::Top {
+            return self.in_definition();
+        }
         let last = self.reading.last.map_or("", |w| w.text);
         if last == "." {
             return self.after_dot();
@@ -82,9 +85,6 @@ impl Offering<'_> {
 
     /// Behind the keyword of a statement.
     fn in_words(&self, word: &str) -> Vec<Completion> {
-        if word == "let" {
-            return self.in_definition();
-        }
         if self.reading.after_value() {
             let next = self.next_keywords(word);
             if !next.is_empty() || !matches!(word, "rule" | "by" | "feature") {
@@ -101,6 +101,7 @@ impl Offering<'_> {
                 let none = Completion::new("none", Kind::Word).docs("Empty air.");
                 vocabulary::forms("backdrop").iter().map(called).chain([none]).collect()
             }
+            "class" | "classes" if self.context.block == Block::Test => classes(self.library()),
             "rule" | "by" | "given" | "expect" => self.features(),
             "use" => self.templates(),
             "in" => self.lists(),
@@ -156,7 +157,7 @@ impl Offering<'_> {
             return self.values(None);
         }
         match self.reading.last.map(|w| w.text) {
-            Some(":" | "[") => vocabulary::types()
+            Some(":" | "[") if self.reading.frames.len() > 1 => vocabulary::types()
                 .map(|(name, ty)| Completion::new(name, Kind::Type).detail(vocabulary::describe(ty)))
                 .collect(),
             _ => Vec::new(),
@@ -193,7 +194,10 @@ impl Offering<'_> {
         let mut libraries: Vec<&tree::Library> = self.library().into_iter().collect();
         let mut next = 0;
         while let Some(library) = libraries.get(next).copied().filter(|_| next < MOST_TAKEN) {
-            let taken = library.uses.iter().filter_map(|inclusion| self.taken(library, inclusion));
+            let taken = library
+                .uses
+                .iter()
+                .filter_map(|inclusion| self.taken(library, inclusion));
             libraries.extend(taken.collect::<Vec<_>>());
             next += 1;
         }
@@ -238,7 +242,11 @@ impl Offering<'_> {
     /// Libraries that another can take over.
     fn templates(&self) -> Vec<Completion> {
         let own = self.context.library.as_deref();
-        let known = self.snapshot.index().libraries(MAIN).filter(|(name, _)| Some(*name) != own);
+        let known = self
+            .snapshot
+            .index()
+            .libraries(MAIN)
+            .filter(|(name, _)| Some(*name) != own);
         known
             .map(|(name, _)| Completion::new(name, Kind::Library).snippet(format!("{name}($0)")))
             .collect()
@@ -257,17 +265,7 @@ impl Offering<'_> {
     /// The classes of the library whose layout is `marked`.
     fn classes(&self) -> Vec<Completion> {
         let named = self.context.statement.iter().skip_while(|w| w.text != "marked").nth(1);
-        let library = named.and_then(|w| self.snapshot.library(w.text));
-        let tables = library
-            .into_iter()
-            .flat_map(|l| &l.tables)
-            .flat_map(|t| &t.rows)
-            .map(|r| &r.name);
-        let classes = library.into_iter().flat_map(|l| &l.classes).map(|c| &c.name);
-        classes
-            .chain(tables)
-            .map(|name| Completion::new(&name.text, Kind::Class))
-            .collect()
+        classes(named.and_then(|w| self.snapshot.library(w.text)))
     }
 
     fn feature(&self, name: &str) -> Option<&tree::Feature> {
@@ -351,8 +349,8 @@ impl Offering<'_> {
             _ => return Vec::new(),
         };
         let numbers = range.map(|n| Completion::new(n.to_string(), Kind::Word));
-        let variable = |w: &&Word<'_>| w.glued && is_word(**w);
-        let in_head = self.context.head.iter().filter(variable).map(|w| w.text);
+        let pairs = self.context.head.windows(2);
+        let in_head = pairs.filter(|w| w[0].text == "[" && is_word(w[1])).map(|w| w[1].text);
         let usual = (self.context.block == Block::Library).then_some("i");
         let variables = in_head.chain(usual).map(|v| Completion::new(v, Kind::Variable).rank(0));
         variables.chain(numbers).collect()
@@ -384,7 +382,11 @@ impl Offering<'_> {
         } else {
             self.values(self.reading.due)
         };
-        if begins && !vocabulary::forms(self.reading.keyword()).iter().any(|f| f.name == callee) {
+        if begins
+            && !vocabulary::forms(self.reading.keyword())
+                .iter()
+                .any(|f| f.name == callee)
+        {
             offers.extend(self.argument_names(callee));
         }
         offers
@@ -394,7 +396,10 @@ impl Offering<'_> {
         let open = self.reading.callee.map_or(0, |w| w.at);
         let given = |name: &str| self.context.statement.iter().any(|w| w.at > open && w.text == name);
         let docs = |name: &str| {
-            let declared = crate::lang::callable(callee)?.parameters.iter().find(|p| p.name == name)?;
+            let declared = crate::lang::callable(callee)?
+                .parameters
+                .iter()
+                .find(|p| p.name == name)?;
             Some(declared.doc)
         };
         let parameters = parameters(self.snapshot, callee).unwrap_or_default().into_iter();
@@ -483,21 +488,21 @@ impl Offering<'_> {
         }
     }
 
-    /// Parameters of the definition around the cursor.
+    /// Parameters of the definition or the template around the cursor.
     fn parameters(&self, due: Option<Type>) -> Vec<Completion> {
         let words = &self.context.statement;
-        if self.reading.keyword() != "let" {
-            return Vec::new();
-        }
         let head = words.iter().take_while(|w| w.text != "=").collect::<Vec<_>>();
-        let pairs = head.windows(3).filter(|w| w[1].text == ":");
-        let typed = pairs.map(|w| (w[0].text, vocabulary::types().find(|(name, _)| *name == w[2].text)));
-        typed
-            .filter(|(_, ty)| due.is_none_or(|due| ty.is_some_and(|(_, ty)| fits(ty, due))))
-            .map(|(name, ty)| {
-                let detail = ty.map_or("", |(name, _)| name);
-                Completion::new(name, Kind::Variable).detail(detail).rank(0)
-            })
+        let pairs = head.windows(3).filter(|w| w[1].text == ":" && self.reading.keyword() == "let");
+        let own = pairs.map(|w| {
+            let ty = vocabulary::types().find(|(name, _)| *name == w[2].text);
+            (w[0].text, ty.map(|(_, ty)| ty))
+        });
+        let template = self.library().and_then(|l| l.parameters.as_deref()).unwrap_or_default();
+        let types = |p: &tree::Parameter| self.snapshot.index().type_of(p.name.span);
+        let template = template.iter().map(|p| (p.name.text.as_str(), types(p)));
+        own.chain(template)
+            .filter(|(_, ty)| due.is_none_or(|due| ty.is_some_and(|ty| fits(ty, due))))
+            .map(|(name, ty)| Completion::new(name, Kind::Variable).detail(type_name(ty)).rank(0))
             .collect()
     }
 
@@ -535,6 +540,13 @@ fn fits(found: Type, due: Type) -> bool {
             (found, due),
             (Type::Count, Type::Number) | (Type::Edges, Type::List(Type::Edge))
         )
+}
+
+fn classes(library: Option<&tree::Library>) -> Vec<Completion> {
+    let rows = library.into_iter().flat_map(|l| &l.tables).flat_map(|t| &t.rows);
+    let classes = library.into_iter().flat_map(|l| &l.classes).map(|c| &c.name);
+    let names = classes.chain(rows.map(|r| &r.name));
+    names.map(|name| Completion::new(&name.text, Kind::Class)).collect()
 }
 
 fn words_of(statement: &str) -> Vec<Completion> {

@@ -38,7 +38,10 @@ const TOP: &[(&str, &str)] = &[
         "task",
         "task ${1:name} {\n  library    ${2:library}\n  goal       ${3:confident}\n  camera     ${4:kinect_v2}\n  space      cube(${5:600 mm}) at [0 mm, 0 mm, ${6:300 mm}] voxel ${7:10 mm}\n  views      sphere(radius: ${8:1.4 m}, count: 64)\n  thresholds { near: ${9:20 mm}, absent: 99 %, confidence: 99 % }\n  limit      20 views$0\n}",
     ),
-    ("test", "test \"${1:what holds}\" {\n  library ${2:library}\n  given  $3\n  expect $0\n}"),
+    (
+        "test",
+        "test \"${1:what holds}\" {\n  library ${2:library}\n  given  $3\n  expect $0\n}",
+    ),
     (
         "scene",
         "scene ${1:name} {\n  backdrop sphere(radius: 2 m, colour: grey)\n  object ${2:name} = $0 at [0 mm, 0 mm, 300 mm]\n}",

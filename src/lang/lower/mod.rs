@@ -7,6 +7,8 @@
 mod constants;
 mod environments;
 mod expand;
+mod faces;
+mod facts;
 mod layout;
 mod library;
 mod ranges;
@@ -19,7 +21,7 @@ use super::diagnostics::Diagnostic;
 use super::names::Program;
 use super::source::{SourceMap, Span};
 use super::types::typed;
-use crate::rules::{FORMAT, Library, Place, RuleSet};
+use crate::rules::{FORMAT, Fact, Library, Place, RuleSet};
 
 /// The rule set as far as the program is right, with spans for the task checks.
 pub(super) struct Lowered {
@@ -30,6 +32,8 @@ pub(super) struct Lowered {
     pub task_spans: Vec<TaskSpans>,
     /// By scene: its backdrop.
     pub backdrop_spans: Vec<Span>,
+    /// The tests of the main file.
+    pub facts: Vec<Fact>,
 }
 
 /// Expands a checked program.
@@ -53,6 +57,7 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         whole: Vec::new(),
         task_spans: Vec::new(),
         backdrop_spans: Vec::new(),
+        facts: Vec::new(),
     };
     let mut libraries = Vec::new();
     for library in &typed.libraries {
@@ -75,6 +80,7 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         out.rules.scenes.push(lowered);
         out.backdrop_spans.push(scene.backdrop_span);
     }
+    out.facts = lowering.facts(&typed.facts, &libraries);
     (out.rules.libraries, out.whole) = libraries.into_iter().map(|l| (l.library, l.whole)).unzip();
     (out, lowering.found)
 }

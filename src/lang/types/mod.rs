@@ -6,7 +6,9 @@
 mod calls;
 mod classes;
 pub(super) mod colours;
+mod expectations;
 mod expressions;
+mod facts;
 mod fallbacks;
 pub(super) mod features;
 pub(super) mod forms;
@@ -20,6 +22,7 @@ mod rule;
 mod scene;
 mod scope;
 mod shadowing;
+pub(super) mod stated;
 pub(super) mod task;
 pub(super) mod typed;
 pub(super) mod units;
@@ -171,7 +174,8 @@ impl<'a> Checker<'a> {
     /// Records the name of a library.
     fn uses_library(&mut self, name: &tree::Name, id: LibraryId) {
         if let Some((library, _)) = self.program.library(id) {
-            self.names.uses(name.span, Entity::Declared(Kind::Library, library.name.span));
+            self.names
+                .uses(name.span, Entity::Declared(Kind::Library, library.name.span));
         }
     }
 
@@ -184,7 +188,8 @@ impl<'a> Checker<'a> {
                 result: body.map(|definition| definition.body.ty),
                 features: self.features_of(id),
             };
-            self.names.signature(self.program.definition(id).tree.name.span, signature);
+            self.names
+                .signature(self.program.definition(id).tree.name.span, signature);
         }
         for (k, slots) in self.library_signatures.iter().enumerate() {
             if let Some((library, _)) = self.program.library(LibraryId(k)) {
@@ -216,11 +221,13 @@ impl<'a> Checker<'a> {
         let each = |want: fn(&tree::Item) -> Option<&tree::Name>| file.items.iter().filter_map(want);
         names::unique("task", each(task_name), &mut self.found);
         names::unique("scene", each(scene_name), &mut self.found);
+        names::unique("test", each(test_name), &mut self.found);
         out.libraries = self.listed(file);
         for item in &file.items {
             match item {
                 tree::Item::Task(task) => out.tasks.extend(self.task(task, &out.libraries)),
                 tree::Item::Scene(scene) => out.scenes.push(self.scene(scene, &out.libraries)),
+                tree::Item::Test(test) => out.facts.push(self.fact(test, &out.libraries)),
                 _ => {}
             }
         }
@@ -296,4 +303,11 @@ fn names_of(item: &tree::Item) -> &[tree::Name] {
 /// What is shared with nobody any more.
 fn owned<T: Clone>(shared: Rc<T>) -> T {
     Rc::try_unwrap(shared).unwrap_or_else(|shared| (*shared).clone())
+}
+
+fn test_name(item: &tree::Item) -> Option<&tree::Name> {
+    match item {
+        tree::Item::Test(test) => Some(&test.name),
+        _ => None,
+    }
 }

@@ -117,7 +117,7 @@ impl Checker<'_> {
         }
         if r.index.is_none()
             && r.fields.is_empty()
-            && let Some((word, colour)) = colours::named(name)
+            && let Some((word, colour)) = colours::all().find(|(n, _)| n == name)
         {
             self.names.uses(r.span, Entity::Colour(word));
             return Some(constant(Value::Colour(colour), Type::Colour, r.span));

@@ -117,7 +117,8 @@ impl<'a> Checker<'a> {
                 self.hides_something("variable", name, outer);
             }
             let checked = self.one_each(each, scope, outer);
-            self.names.local(Kind::Variable, name, checked.as_ref().map(|_| Type::Edge));
+            self.names
+                .local(Kind::Variable, name, checked.as_ref().map(|_| Type::Edge));
             scope
                 .each
                 .push((name.text.clone(), checked.as_ref().map(|_| Type::Edge)));

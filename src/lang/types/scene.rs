@@ -81,7 +81,8 @@ impl<'a> Checker<'a> {
             );
         }
         if let Some(layout) = layout {
-            self.names.member(Kind::Layout, here.layouts[layout].span, &marked.layout);
+            self.names
+                .member(Kind::Layout, here.layouts[layout].span, &marked.layout);
         }
         let class = here.classes.iter().position(|c| c.name == marked.class.text);
         if class.is_none() {

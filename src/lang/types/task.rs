@@ -8,8 +8,8 @@ use super::forms::SPACES;
 use super::scope::Scope;
 use super::typed::{Expr, Library, Task};
 use crate::lang::diagnostics::{Code, Diagnostic};
-use crate::lang::names::Module;
 use crate::lang::index::Entity;
+use crate::lang::names::Module;
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, TaskStatementKind as Kind};
@@ -92,15 +92,13 @@ impl<'a> Checker<'a> {
             Kind::Method(name) => draft.method = self.method(name),
             Kind::GainFloor(e) => self.count(draft, "gain_floor", e, "voxels"),
             Kind::Inspected(name) => {
-                draft.inspected = self
-                    .one_of_words(name, "`inspected`", INSPECTED)
-                    .map(|word| {
-                        if word == "near_point" {
-                            Inspected::NearPoint
-                        } else {
-                            Inspected::Observed
-                        }
-                    });
+                draft.inspected = self.one_of_words(name, "`inspected`", INSPECTED).map(|word| {
+                    if word == "near_point" {
+                        Inspected::NearPoint
+                    } else {
+                        Inspected::Observed
+                    }
+                });
             }
             Kind::Verify(name) => draft.verify = self.one_of_words(name, "`verify`", VERIFY).is_some(),
             Kind::SensorModel(fields) => draft.sensor_model = self.fields(fields, SENSOR_MODEL, "sensor_model"),

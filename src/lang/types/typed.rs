@@ -16,6 +16,7 @@ pub(in crate::lang) struct Program {
     pub libraries: Vec<Library>,
     pub tasks: Vec<Task>,
     pub scenes: Vec<Scene>,
+    pub facts: Vec<super::stated::Fact>,
 }
 
 #[derive(Clone, Debug)]

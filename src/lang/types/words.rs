@@ -33,7 +33,9 @@ impl Checker<'_> {
                 .iter()
                 .find(|word| **word == name.text)
                 .map(|word| (Entity::Word(word), Value::Choice(name.text.clone()))),
-            _ => colours::named(&name.text).map(|(word, colour)| (Entity::Colour(word), Value::Colour(colour))),
+            _ => colours::all()
+                .find(|(word, _)| *word == name.text)
+                .map(|(word, colour)| (Entity::Colour(word), Value::Colour(colour))),
         };
         match value {
             Some((entity, value)) => {
