@@ -5,6 +5,7 @@ mod compile;
 mod files;
 mod lsp;
 mod plan;
+mod test;
 mod why;
 
 pub use files::Disk;
@@ -29,6 +30,7 @@ enum Verb {
     Compile(compile::Compile),
     Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
+    Test(test::Test),
     Why(why::Why),
 }
 
@@ -93,6 +95,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Compile(compile) => compile::run(&compile),
         Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Test(test) => test::run(&test),
         Verb::Why(why) => why::run(&why),
     };
     match outcome {

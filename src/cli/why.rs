@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 
 use super::files::{Disk, STDIN};
 use super::{Failure, Outcome, print};
-use crate::lang;
+use crate::lang::{self, syntax::block};
 use crate::rules::Place;
 use crate::show::log::Run;
 use crate::show::why::{self, Subject, Unknown, Written};
@@ -52,9 +52,9 @@ pub(crate) fn run(options: &Why) -> Result<Outcome, Failure> {
     let run = Run::read(&bytes).map_err(|error| Failure::NoLog(named(&options.log), error.to_string()))?;
     let subject = Subject::parse(&options.subject.join(" "), &run).map_err(unknown)?;
     let at = moment(options.at, &subject, &run)?;
-    let written = match subject {
-        Subject::Rule(_) => written(&run, &options.log),
-        _ => Written::default(),
+    let written = match &subject {
+        Subject::Rule(id) => written(&run, id, &options.log),
+        _ => Written::Unasked,
     };
     let explanation = why::explain(&run, &subject, at, &written);
     print(&match options.format {
@@ -96,8 +96,8 @@ fn moment(at: Option<u32>, subject: &Subject, run: &Run) -> Result<u32, Failure>
     }
 }
 
-/// The rules as the run's program writes them, if that is still the program.
-fn written(run: &Run, log: &Path) -> Written {
+/// A rule as the run's program writes it, if that is still the program.
+fn written(run: &Run, rule: &str, log: &Path) -> Written {
     let file = &run.start.file;
     if file == STDIN {
         return Written::Gone("the program came on standard input, so its text is not shown".into());
@@ -119,11 +119,13 @@ fn written(run: &Run, log: &Path) -> Written {
     let compiled = lang::compile(&path.to_string_lossy(), &Disk);
     let sources = &compiled.sources;
     match &compiled.rules {
-        Some(rules) if rules.digest() == run.start.rules => Written::of(rules, &run.start.task, |place: Place| {
-            let file = sources.get(lang::FileId(place.file))?;
-            let indent = " ".repeat(place.column.saturating_sub(1) as usize);
-            Some((file.display.clone(), indent + sources.text(place.into())))
-        }),
+        Some(rules) if rules.digest() == run.start.rules => {
+            Written::of(rules, &run.start.task, rule, |place: Place| {
+                let file = sources.get(lang::FileId(place.file))?;
+                let text = block(&file.text, place.start as usize);
+                Some((file.display.clone(), text.to_owned()))
+            })
+        }
         _ => Written::Gone(format!(
             "`{file}` has changed since the run (its compiled rules differ), so the rule's text is not shown"
         )),

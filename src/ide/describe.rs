@@ -84,7 +84,8 @@ fn declared(snapshot: &Snapshot, kind: Kind, name: Span) -> Option<Description> 
         Declaration::Layout(layout) => rules_of(
             snapshot,
             layout.head,
-            Description::new(format!("layout {}", layout.name.text)).fact(format!("{}.", counted(layout.places.len(), "place"))),
+            Description::new(format!("layout {}", layout.name.text))
+                .fact(format!("{}.", counted(layout.places.len(), "place"))),
         )
         .docs(above),
         Declaration::Variable(library, rule) => variable(snapshot, kind, library, rule, name),
@@ -280,9 +281,13 @@ fn of_task(snapshot: &Snapshot, task: &tree::Task) -> Description {
     };
     let cells = done.space.size.map(|x| (x / done.space.voxel).round());
     let views = primitives::poses(&done.views, &done.space).map_or(0, |poses| poses.len());
-    out.fact(format!("{}, at most {} taken.", counted(views, "candidate view"), done.limit))
-        .fact(format!("A map of {} × {} × {} voxels.", cells.x, cells.y, cells.z))
-        .fact(format!("Method `{}`.", done.method))
+    out.fact(format!(
+        "{}, at most {} taken.",
+        counted(views, "candidate view"),
+        done.limit
+    ))
+    .fact(format!("A map of {} × {} × {} voxels.", cells.x, cells.y, cells.z))
+    .fact(format!("Method `{}`.", done.method))
 }
 
 fn module(snapshot: &Snapshot, file: FileId) -> Option<Description> {

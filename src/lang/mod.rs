@@ -9,6 +9,7 @@
 mod analysis;
 mod checks;
 mod diagnostics;
+mod format;
 pub mod index;
 mod lower;
 mod names;
@@ -21,6 +22,7 @@ mod world;
 
 pub use analysis::{Analysis, Compilation, Expansion, analyse};
 pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
+pub use format::{Formatted, edits, format};
 pub(crate) use names::suggest::closest;
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use syntax::{Token, TokenClass, tokens};

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use gen_lsp_types::{
-    ActiveParameter, CodeAction, CodeActionKind, CompletionList, Contents, DocumentHighlight,
-    DocumentHighlightKind, DocumentSymbol, FoldingRange, Hover, InlayHint, InlayHintKind, Location,
-    ParameterInformation, PrepareRenamePlaceholder, Range, SemanticTokens, SignatureHelp,
-    SignatureInformation, TextDocumentIdentifier, TextDocumentPositionParams, TextEdit, Uri, WorkspaceEdit,
+    ActiveParameter, CodeAction, CodeActionKind, CompletionList, Contents, DocumentHighlight, DocumentHighlightKind,
+    DocumentSymbol, FoldingRange, Hover, InlayHint, InlayHintKind, Location, ParameterInformation,
+    PrepareRenamePlaceholder, Range, SemanticTokens, SignatureHelp, SignatureInformation, TextDocumentIdentifier,
+    TextDocumentPositionParams, TextEdit, Uri, WorkspaceEdit,
 };
 
 use super::workspace::Workspace;
@@ -140,6 +140,19 @@ impl<'w> Open<'w> {
                 padding_left: Some(true),
                 padding_right: None,
                 data: None,
+            })
+            .collect()
+    }
+
+    /// The edits that lay the document out.
+    pub fn formatted(&self) -> Vec<TextEdit> {
+        let text = self.snapshot.text();
+        let positions = self.positions();
+        let edits = crate::lang::edits(text, &crate::lang::format(text).text).into_iter();
+        edits
+            .map(|edit| TextEdit {
+                range: positions.range(edit.span.start..edit.span.end),
+                new_text: edit.text,
             })
             .collect()
     }

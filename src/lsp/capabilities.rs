@@ -95,6 +95,7 @@ pub(super) fn greeting(greeting: &Greeting) -> InitializeResult {
         definition_provider: Some(true.into()),
         references_provider: Some(true.into()),
         document_highlight_provider: Some(true.into()),
+        document_formatting_provider: Some(true.into()),
         document_symbol_provider: Some(true.into()),
         code_action_provider: Some(
             CodeActionOptions {

@@ -56,7 +56,9 @@ pub(super) fn answer(workspace: &mut Workspace, greeting: &Greeting, method: &st
         "inlayHint" | "codeAction" => {
             let asked: Part = read(params)?;
             let open = open(workspace, &asked.text_document);
-            open.map_or(Ok(Value::Null), |open| about_part(&open, greeting, method, asked.range, params))
+            open.map_or(Ok(Value::Null), |open| {
+                about_part(&open, greeting, method, asked.range, params)
+            })
         }
         "references" => {
             let at: TextDocumentPositionParams = read(params)?;
@@ -109,7 +111,10 @@ fn about_place(open: &Open<'_>, greeting: &Greeting, method: &str, at: usize) ->
 }
 
 fn unknown(method: &str) -> Answer {
-    Err(Refused::new(ErrorCode::MethodNotFound, format!("there is no method `{method}`")))
+    Err(Refused::new(
+        ErrorCode::MethodNotFound,
+        format!("there is no method `{method}`"),
+    ))
 }
 
 fn read<'p, P: Deserialize<'p>>(params: &'p Value) -> Result<P, Refused> {

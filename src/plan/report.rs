@@ -8,7 +8,7 @@ use super::status::Status;
 use super::trace::{Absence, RuleTrace};
 use crate::detect::Condition;
 use crate::map::Counts;
-use crate::rules::Library;
+use crate::rules::{Goal, Library};
 
 /// What changed with a measurement.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,6 +139,8 @@ pub struct End {
     pub confidence: f64,
     /// What the library cannot explain.
     pub contradiction: Option<ContradictionReport>,
+    /// What was asked for.
+    pub goal: Goal,
     /// What a run can end by, and which of it holds.
     pub because: Vec<Condition>,
 }
@@ -217,6 +219,7 @@ pub fn end(outcome: Outcome, completion: Completion, status: &Status, knowledge:
             feature: library.feature(c.feature).name.clone(),
             evidence: c.evidence.clone(),
         }),
+        goal: knowledge.task.goal,
         because: Vec::new(),
     }
 }

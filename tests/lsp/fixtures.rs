@@ -47,6 +47,10 @@ fn said(path: &Path) -> String {
     for what in asked.split(", ") {
         match what {
             "diagnostics" => out.push_str(&list(&diagnostics, &text, diagnostic)),
+            "format" => {
+                let answer = client.request("textDocument/formatting", json!({ "textDocument": { "uri": URI } }));
+                out.push_str(&edits(&json!({ URI: answer }), &text));
+            }
             "tokens" => out.push_str(&tokens(&mut client, &text)),
             "symbols" | "folds" | "hints" => out.push_str(&whole(&mut client, &text, what)),
             _ => {

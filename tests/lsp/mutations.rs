@@ -61,6 +61,7 @@ const METHODS: &[&str] = &[
     "semanticTokens/full",
     "inlayHint",
     "codeAction",
+    "formatting",
 ];
 
 /// A small generator: the same numbers everywhere.

@@ -46,6 +46,12 @@ impl Recorder {
         &self.records
     }
 
+    /// Shows what is done before the first view.
+    pub fn preparing(&self, doing: &str) {
+        self.bar.set_message(doing.to_owned());
+        self.bar.tick();
+    }
+
     /// Starts the clock of a view.
     pub fn begin_view(&mut self) {
         self.ms = Milliseconds::default();

@@ -1,6 +1,6 @@
 //! What fits at the cursor.
 
-use super::context::{Block, Context, Word};
+use super::context::{Block, Context};
 use super::due::{Frame, Reading, is_word, parameters};
 use super::imports::{self, defined};
 use super::snippets::{keyword, statements};
@@ -492,7 +492,9 @@ impl Offering<'_> {
     fn parameters(&self, due: Option<Type>) -> Vec<Completion> {
         let words = &self.context.statement;
         let head = words.iter().take_while(|w| w.text != "=").collect::<Vec<_>>();
-        let pairs = head.windows(3).filter(|w| w[1].text == ":" && self.reading.keyword() == "let");
+        let pairs = head
+            .windows(3)
+            .filter(|w| w[1].text == ":" && self.reading.keyword() == "let");
         let own = pairs.map(|w| {
             let ty = vocabulary::types().find(|(name, _)| *name == w[2].text);
             (w[0].text, ty.map(|(_, ty)| ty))

@@ -1,5 +1,5 @@
 //! Every code with a title: E01 syntax and files, E02 names, E03 types and
-//! units, E04 task checks, E05 scenes, W04 warnings about tasks.
+//! units, E04 task checks, E05 scenes, E07 facts, W04 warnings about tasks.
 
 use std::fmt;
 

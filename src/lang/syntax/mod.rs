@@ -6,6 +6,7 @@
 
 #[cfg(test)]
 mod agreement;
+mod block;
 mod build;
 mod expected;
 mod expressions;
@@ -13,6 +14,7 @@ mod facts;
 mod guard;
 mod libraries;
 mod recover;
+mod same;
 mod tasks;
 mod tokens;
 pub mod tree;
@@ -26,6 +28,9 @@ use pest_derive::Parser;
 use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
 
+pub use block::block;
+pub(super) use same::same_program;
+pub(super) use tokens::read;
 pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.

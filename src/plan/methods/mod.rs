@@ -105,8 +105,8 @@ impl Situation<'_> {
     }
 
     /// The views of largest value, best first: of equals the nearest to the
-    /// current view, then the lowest index. The first is the choice, the others
-    /// its rivals.
+    /// current view, then the lowest index. The first is the choice, the others of
+    /// some value its rivals.
     pub fn ranked(&self, mut ranks: Vec<Rank>, value: impl Fn(&Rank) -> f64) -> Option<(Rank, Vec<Rank>)> {
         ranks.sort_by(|a, b| {
             let nearer = || self.distance(a.position).total_cmp(&self.distance(b.position));
@@ -116,7 +116,7 @@ impl Situation<'_> {
         ranks.truncate(1 + MOST_RIVALS);
         let mut ranks = ranks.into_iter();
         let best = ranks.next()?;
-        Some((best, ranks.collect()))
+        Some((best, ranks.filter(|rank| value(rank) > 0.0).collect()))
     }
 
     /// How far a view is from the current one, metres.

@@ -177,6 +177,10 @@ pub struct Target {
 pub struct Stop {
     /// As [`End::outcome`].
     pub outcome: String,
+    /// What the task asks for: a certain class.
+    pub confident: bool,
+    /// What the task asks for: that no view can gain anything.
+    pub exhausted: bool,
     /// What a run can end by, and which of it holds.
     pub because: Vec<Condition>,
 }
@@ -277,6 +281,8 @@ impl View {
                 Decision::Next(_) => None,
                 Decision::End(end) => Some(Stop {
                     outcome: end.outcome.name().to_owned(),
+                    confident: end.goal.confident,
+                    exhausted: end.goal.exhausted,
                     because: end.because.clone(),
                 }),
             },

@@ -8,7 +8,7 @@ use super::feature::absence_text;
 use super::history::Past;
 use super::words::{mark, plural, share, state};
 use crate::plan::{Absence, Existence};
-use crate::show::log::{View, View as Measurement};
+use crate::show::log::{Feature, View};
 
 /// Why a class is left, or was excluded.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -53,7 +53,7 @@ pub struct Evidence {
 
 /// The answer about a class.
 pub(super) fn answer(past: &Past<'_>, name: &str) -> ClassAnswer {
-    let after = |view: &Measurement| view.classes.get(name).copied().unwrap_or(0.0);
+    let after = |view: &View| view.classes.get(name).copied().unwrap_or(0.0);
     let prior = past.class(name).map(|c| c.prior);
     let excluded = past.views.iter().find(|v| after(v) <= 0.0);
     let left = past.last().map(|v| v.classes.0.as_slice()).unwrap_or_default();
@@ -72,7 +72,7 @@ pub(super) fn answer(past: &Past<'_>, name: &str) -> ClassAnswer {
 fn evidence(past: &Past<'_>, class: &str, by: Option<&View>) -> Vec<Evidence> {
     let features = by.map(|v| v.features.0.as_slice()).unwrap_or_default();
     let decided = |code: i8| code == Existence::Detected.code() || code == Existence::Absent.code();
-    let of = |(name, feature): &(String, crate::show::log::Feature)| {
+    let of = |(name, feature): &(String, Feature)| {
         let first = past
             .views
             .iter()
@@ -141,7 +141,7 @@ impl Evidence {
     fn to_text(&self, class: &str, absent_from: Option<f64>) -> String {
         let how = match (&self.by, &self.absence) {
             (Some(by), _) => format!("detected by {by}"),
-            (None, Some(absence)) => absence_text(absence, absent_from),
+            (None, Some(absence)) => format!("absent: {}", absence_text(absence, absent_from)),
             (None, None) => state(self.state).to_owned(),
         };
         let has = match self.has {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::history::{Past, measured};
-use super::rule::line_of;
+use super::rule::lines_of;
 use super::words::{listed, plural, share, state};
 use crate::plan::trace::Try;
 use crate::plan::{Absence, Existence};
@@ -203,7 +203,7 @@ impl FeatureAnswer {
         for change in &self.history {
             let _ = writeln!(text, "  view {:<3} {}", change.n, change.to_text(self.absent_from));
             if let Some(found) = &change.found {
-                text += &format!("      {}", line_of(found).trim_start());
+                text += &lines_of(std::slice::from_ref(found));
             }
         }
         let bits: Vec<String> = self.weights.iter().map(|w| format!("{w:.2}")).collect();
@@ -216,7 +216,7 @@ impl FeatureAnswer {
         }
         for tried in &self.tries {
             let _ = writeln!(text, "\n{} last looked for it in view {}", tried.rule, tried.n);
-            tried.tries.iter().for_each(|t| text += &line_of(t));
+            text += &lines_of(&tried.tries);
         }
         text
     }
@@ -228,7 +228,7 @@ impl Change {
         match (self.state, &self.absence) {
             (1, _) if self.instances > 1 => format!("{} detected, the latest{by}", plural(self.instances, "instance")),
             (1, _) => format!("detected{by}"),
-            (0, Some(absence)) => absence_text(absence, absent_from),
+            (0, Some(absence)) => format!("absent: {}", absence_text(absence, absent_from)),
             (2, _) if !self.classes.is_empty() => format!("present: every class left has it ({})", few(&self.classes)),
             (3, _) if !self.classes.is_empty() => format!("excluded: no class left has it ({})", few(&self.classes)),
             (-1 | 2, _) if self.predicted => "its place is predicted".to_owned(),
@@ -240,10 +240,10 @@ impl Change {
 
 /// How a feature came to count as absent.
 pub(super) fn absence_text(absence: &Absence, absent_from: Option<f64>) -> String {
-    let least = absent_from.map_or(String::new(), |s| format!(" of at least {}", share(s)));
+    let enough = absent_from.map_or(String::new(), |s| format!(", {} are enough", share(s)));
     let inspected = share(absence.inspected as f64 / absence.voxels.max(1) as f64);
     format!(
-        "absent: {inspected}{least} of its place was inspected ({} of {} voxels, predicted by {}), and it was not found",
+        "{inspected} of its place was inspected ({} of {} voxels{enough}), as {} predicts it, and it was not found",
         absence.inspected,
         absence.voxels,
         absence.rules.join(", ")

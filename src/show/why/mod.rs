@@ -66,9 +66,7 @@ pub fn explain(run: &Run, subject: &Subject, at: u32, written: &Written) -> Expl
         Subject::Candidate(index) => Answer::Candidate(candidate::answer(&past, *index)),
     };
     let mut notes = past.reservations();
-    if matches!(answer, Answer::Rule(_)) {
-        notes.extend(written.reservation());
-    }
+    notes.extend(written.reservation());
     Explanation {
         answer,
         at,

@@ -4,11 +4,12 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::feature::absence_text;
 use super::history::Past;
-use super::words::{conditions, listed, mark, plural, share, state};
+use super::words::{listed, mark, plural, share, state, wrapped};
 use super::written::{Passage, Written};
 use crate::plan::trace::{Blank, Nothing, Try};
-use crate::plan::{Existence, RuleTrace};
+use crate::plan::{Absence, Existence, RuleTrace};
 use crate::show::log::View;
 
 /// Why a rule fired, or did not.
@@ -105,9 +106,15 @@ pub struct Concluded {
     pub state: i8,
     /// The measurement after which it came to that state.
     pub since: Option<u32>,
-    /// The rule that brought it there.
+    /// The rule that found it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,
+    /// How it came to count as absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub absence: Option<Absence>,
+    /// The share of its place from which it does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub absent_from: Option<f64>,
 }
 
 /// The answer about a rule.
@@ -128,7 +135,7 @@ pub(super) fn answer(past: &Past<'_>, id: &str, written: &Written) -> RuleAnswer
     let concluded = declared.as_ref().map(|d| concluded(past, &d.consequent));
     RuleAnswer {
         rule: id.to_owned(),
-        written: written.rule(id).cloned(),
+        written: written.passage().cloned(),
         verdict: verdict(past, id, &antecedents, &measurements, concluded.as_ref()),
         antecedents,
         measurements,
@@ -168,19 +175,17 @@ fn measured(view: &View, id: &str) -> Option<Measured> {
 
 fn concluded(past: &Past<'_>, feature: &str) -> Concluded {
     let (state, since) = (past.state(feature), past.since(feature));
-    let by = match past.absence(feature) {
-        Some((_, absence)) => absence.rules.first().cloned(),
-        None if state == Existence::Detected.code() => since
-            .and_then(|n| past.views.get(n as usize - 1))
-            .and_then(|view| past.finder(view, feature))
-            .map(|(id, _)| id.to_owned()),
-        None => None,
-    };
+    let found = since.filter(|_| state == Existence::Detected.code());
+    let by = found
+        .and_then(|n| past.views.get(n as usize - 1))
+        .and_then(|view| past.finder(view, feature));
     Concluded {
         feature: feature.to_owned(),
         state,
         since,
-        by,
+        by: by.map(|(id, _)| id.to_owned()),
+        absence: past.absence(feature).map(|(_, absence)| absence.clone()),
+        absent_from: past.absent_share(),
     }
 }
 
@@ -281,8 +286,12 @@ impl RuleAnswer {
         self.predictions_to(&mut text);
         if let Some(c) = &self.concluded {
             let since = c.since.map_or(String::new(), |n| format!(" since view {n}"));
-            let by = c.by.as_ref().map_or(String::new(), |by| format!(", by {by}"));
-            let _ = writeln!(text, "\n{} is {}{since}{by}", c.feature, state(c.state));
+            let how = match (&c.absence, &c.by) {
+                (Some(absence), _) => format!(": {}", absence_text(absence, c.absent_from)),
+                (None, Some(by)) => format!(", by {by}"),
+                (None, None) => String::new(),
+            };
+            let _ = writeln!(text, "\n{} is {}{since}{how}", c.feature, state(c.state));
         }
         text
     }
@@ -320,7 +329,7 @@ impl RuleAnswer {
                 m.by.as_ref()
                     .map_or(String::new(), |by| format!(", asked by {by} already"));
             let _ = writeln!(text, "  view {}{by}", m.n);
-            m.trace.tries.iter().for_each(|t| *text += &line_of(t));
+            *text += &lines_of(&m.trace.tries);
             if m.trace.more > 0 {
                 let _ = writeln!(text, "    and {} more", plural(m.trace.more, "combination"));
             }
@@ -354,19 +363,31 @@ impl RuleAnswer {
     }
 }
 
-/// `    bottom.1/edge.2  ✗ 0 of 7: ✓ colour green … · ✗ dihedral …`.
-pub(super) fn line_of(t: &Try) -> String {
-    let what = if t.conditions.is_empty() {
-        String::new()
-    } else {
-        format!(": {}", conditions(&t.conditions))
-    };
-    let looked = if t.looked == 0 {
-        "nothing to look at".to_owned()
-    } else {
-        format!("{} of {}", t.found, t.looked)
-    };
-    format!("    {}  {} {looked}{what}\n", t.key, mark(t.found > 0))
+/// `    bottom.1/edge.2  ✗ 0 of 7: ✓ colour green … · ✗ dihedral …`; runs that
+/// came out alike share their lines.
+pub(super) fn lines_of(tries: &[Try]) -> String {
+    let mut text = String::new();
+    let mut told: Vec<&Try> = Vec::new();
+    let alike = |a: &Try, b: &Try| a.looked == b.looked && a.found == b.found && a.conditions == b.conditions;
+    for one in tries {
+        if told.iter().any(|t| alike(t, one)) {
+            continue;
+        }
+        told.push(one);
+        let more = tries.iter().filter(|t| alike(t, one)).count() - 1;
+        let more = if more > 0 {
+            format!(" and {more} more")
+        } else {
+            String::new()
+        };
+        let looked = match one.looked {
+            0 => "nothing to look at".to_owned(),
+            looked => format!("{} of {looked}", one.found),
+        };
+        let head = format!("    {}{more}  {} {looked}", one.key, mark(one.found > 0));
+        text += &wrapped(&head, &one.conditions);
+    }
+    text
 }
 
 fn blank_line(blank: &Blank) -> String {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::history::Past;
-use super::words::{conditions, mark, plural, quantity, share};
+use super::words::{self, mark, plural, quantity, share};
 use crate::detect::{Condition, Test, Unit};
 use crate::show::lines::{aim, found_since, remaining};
 use crate::show::log::{Next, Standing, Stop, View};
@@ -30,9 +30,7 @@ pub struct ViewAnswer {
     /// Why the run stopped there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop: Option<Stop>,
-    /// What the goal asks for: a certain class, no gain left; where the log says it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub goal: Option<(bool, bool)>,
+
     /// Whether the log goes no further.
     pub last: bool,
 }
@@ -57,7 +55,7 @@ pub struct Chosen {
 pub(super) fn answer(past: &Past<'_>, n: u32) -> ViewAnswer {
     let mut back = past.views[..past.views.len().min(n as usize)].iter().rev();
     let (view, before) = (back.next(), back.next());
-    let start = &past.run.start;
+
     let stop = view.and_then(|v| v.stop.clone());
     ViewAnswer {
         n,
@@ -75,7 +73,7 @@ pub(super) fn answer(past: &Past<'_>, n: u32) -> ViewAnswer {
                 .filter(|_| view.is_some_and(|v| v.next.is_none()))
                 .map(bare_stop)
         }),
-        goal: start.criteria.as_ref().map(|c| (c.confident, c.exhausted)),
+
         last: n as usize == past.run.views.len(),
     }
 }
@@ -84,6 +82,8 @@ pub(super) fn answer(past: &Past<'_>, n: u32) -> ViewAnswer {
 fn bare_stop(end: &crate::show::log::End) -> Stop {
     Stop {
         outcome: end.outcome.clone(),
+        confident: false,
+        exhausted: false,
         because: Vec::new(),
     }
 }
@@ -103,13 +103,11 @@ fn chosen(past: &Past<'_>, before: &View) -> Option<Chosen> {
 pub(super) fn stop_reason(stop: &Stop) -> String {
     let holding = |name: &str| stop.because.iter().find(|c| c.name == name && c.holds);
     match stop.outcome.as_str() {
-        "goal" => match holding("confident") {
-            Some(c) => match (&c.of, &c.test) {
-                (Some(class), Test::Quantity { found: Some(p), .. }) => format!("certain of {class}, p = {p:.3}"),
-                _ => "the class is certain".to_owned(),
-            },
-            None => "no view can show more".to_owned(),
+        "goal" if stop.confident => match holding("confident").map(|c| (&c.of, &c.test)) {
+            Some((Some(class), Test::Quantity { found: Some(p), .. })) => format!("certain of {class}, p = {p:.3}"),
+            _ => "the class is certain".to_owned(),
         },
+        "goal" => "no view can show more".to_owned(),
         "exhausted" => "no view can gain anything".to_owned(),
         "contradiction" => match holding("contradiction").and_then(|c| c.of.as_ref()) {
             Some(feature) => format!("{feature} contradicts the library"),
@@ -147,60 +145,51 @@ impl ViewAnswer {
     fn stop_to(&self, stop: &Stop, text: &mut String) {
         let _ = writeln!(text, "then        the run stopped: {}", stop_reason(stop));
         for condition in &stop.because {
-            let _ = writeln!(text, "  {}", ending(condition, self.goal));
+            let _ = writeln!(text, "  {}", ending(condition, stop));
         }
     }
 }
 
 /// A condition that a run can end by, in words.
-fn ending(condition: &Condition, goal: Option<(bool, bool)>) -> String {
-    let asked = match (condition.name.as_ref(), goal) {
-        ("confident" | "verified", Some((true, _))) => "  ← the goal",
-        ("feature gain" | "feature seen whole" | "surface gain", Some((_, true))) => "  ← the goal",
-        _ => "",
+fn ending(condition: &Condition, goal: &Stop) -> String {
+    let asked = match condition.name.as_ref() {
+        "confident" | "verified" => goal.confident,
+        "feature gain" | "feature seen whole" | "surface gain" => goal.exhausted,
+        _ => false,
     };
-    let words = match condition.name.as_ref() {
+    let asked = if asked { "  ← asked for by the goal" } else { "" };
+    let said = match condition.name.as_ref() {
         "contradiction" if !condition.holds => "✗ no contradiction".to_owned(),
-        "feature gain" => gain(
-            condition,
-            "the most that an unvisited view would show of a feature that matters",
-        ),
-        "surface gain" => gain(
-            condition,
-            "the most that an unvisited view would show behind the surface",
-        ),
-        "feature seen whole" => gain(
-            condition,
-            "the most that an unvisited view would show of a feature to be seen whole",
-        ),
+        "feature gain" | "feature seen whole" => gain(condition, "of a feature that matters"),
+        "surface gain" => gain(condition, "behind the measured surface"),
         "verified" if condition.holds => "✓ every predicted feature of the class was inspected".to_owned(),
         "verified" => format!(
             "✗ `{}` of the class was not inspected",
             condition.of.as_deref().unwrap_or("a feature")
         ),
-        _ => conditions(std::slice::from_ref(condition)),
+        _ => words::condition(condition),
     };
-    words + asked
+    said + asked
 }
 
-/// `✓ nothing left to gain: … 12 voxels (counts from 15)`.
+/// `✓ nothing to gain behind the measured surface: no unvisited view shows more than 8 voxels, …`.
 fn gain(condition: &Condition, what: &str) -> String {
+    let verdict = format!(
+        "{} {} to gain {what}",
+        mark(condition.holds),
+        if condition.holds { "nothing" } else { "something" }
+    );
     let Test::Quantity { unit, most, found, .. } = &condition.test else {
-        return format!("{} {what}", mark(condition.holds));
+        return verdict;
     };
     let found = quantity(*unit, found.unwrap_or(0.0));
     let of = condition.of.as_ref().map_or(String::new(), |of| format!(" of `{of}`"));
-    let floor = match (unit, most) {
-        (Unit::Voxels, Some(most)) => format!(" (counts from {})", quantity(*unit, most + 1.0)),
-        (_, Some(most)) => format!(" (counts from {})", quantity(*unit, *most)),
+    let enough = match (unit, most) {
+        (Unit::Voxels, Some(most)) => format!(", and {} would count", quantity(*unit, most + 1.0)),
+        (_, Some(most)) => format!(" in one view, and {} would count", quantity(*unit, *most)),
         _ => String::new(),
     };
-    let verdict = if condition.holds {
-        "nothing to gain"
-    } else {
-        "something to gain"
-    };
-    format!("{} {verdict}: {what} is {found}{of}{floor}", mark(condition.holds))
+    format!("{verdict}: no unvisited view shows more than {found}{of}{enough}")
 }
 
 impl Chosen {
@@ -227,6 +216,19 @@ impl Chosen {
             text += "  ✗ no view with a gain meets the overlap; of those the one of largest overlap was taken\n";
         } else if let (Some(share), Some(least)) = (best.share, self.overlap) {
             text += &format!("  {}\n", overlap(share, least));
+        }
+        for other in self
+            .next
+            .runners_up
+            .iter()
+            .filter(|s| s.terms.overlap == 0 && !self.next.relaxed)
+        {
+            let share = other.share.map_or(String::new(), |s| format!(" of {}", share(s)));
+            let _ = writeln!(
+                text,
+                "  ✗ #{} would gain more, but its overlap{share} is too small",
+                other.view
+            );
         }
         if let Some(tie) = self.tie() {
             let _ = writeln!(text, "  {tie}");

@@ -33,9 +33,27 @@ pub(super) fn condition(condition: &Condition) -> String {
     }
 }
 
-/// Several conditions on one line.
-pub(super) fn conditions(all: &[Condition]) -> String {
-    all.iter().map(condition).collect::<Vec<_>>().join(" · ")
+/// Widest line of conditions, characters.
+const WIDTH: usize = 100;
+
+/// A head and conditions after it, over as many lines as it takes.
+pub(super) fn wrapped(head: &str, all: &[Condition]) -> String {
+    let indent = "        ";
+    let mut text = head.to_owned();
+    let mut width = head.chars().count();
+    for (k, one) in all.iter().map(condition).enumerate() {
+        let separator = if k == 0 { ": " } else { " · " };
+        let more = one.chars().count() + separator.chars().count();
+        if width + more > WIDTH {
+            text += if k == 0 { ":" } else { "" };
+            text += &format!("\n{indent}{one}");
+            width = indent.len() + more;
+        } else {
+            text += &format!("{separator}{one}");
+            width += more;
+        }
+    }
+    text + "\n"
 }
 
 fn bounds(unit: Unit, least: Option<f64>, most: Option<f64>) -> String {
@@ -123,5 +141,18 @@ mod tests {
         assert_eq!(condition(&Condition::plain("decoded", false)), "✗ decoded");
         let nothing = Condition::at_least("seen", Unit::Share, f64::NAN, 0.8);
         assert_eq!(condition(&nothing), "✗ seen no value (at least 80 %)");
+    }
+
+    #[test]
+    fn conditions_are_wrapped_between_and_never_within() {
+        let all: Vec<Condition> = (0..9)
+            .map(|_| Condition::plain("a condition of some words", true))
+            .collect();
+        let text = wrapped("    key", &all);
+        assert!(
+            text.lines().count() > 2 && text.lines().all(|l| l.chars().count() <= 104),
+            "{text}"
+        );
+        assert_eq!(text.matches("✓ a condition of some words").count(), 9);
     }
 }

@@ -1,7 +1,5 @@
 //! Rules as their program writes them, where the program is still at hand.
 
-use std::collections::BTreeMap;
-
 use serde::Serialize;
 
 use crate::rules::{Library, Place, Rule, RuleSet};
@@ -9,19 +7,16 @@ use crate::rules::{Library, Place, Rule, RuleSet};
 /// Most lines of a rule that are shown.
 const MOST_LINES: usize = 16;
 
-/// Where rules are written; nowhere where the program cannot be had.
-#[derive(Clone, Debug, PartialEq)]
+/// How a rule is written.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub enum Written {
-    /// The program of the run.
-    Here(BTreeMap<String, Passage>),
-    /// Why it cannot be shown.
+    /// It is not asked for.
+    #[default]
+    Unasked,
+    /// In the program of the run.
+    Here(Passage),
+    /// It cannot be shown, and why.
     Gone(String),
-}
-
-impl Default for Written {
-    fn default() -> Self {
-        Self::Here(BTreeMap::new())
-    }
 }
 
 /// A rule in its program.
@@ -36,33 +31,36 @@ pub struct Passage {
 }
 
 impl Written {
-    /// The rules of a task's library; `text` gives the name of a place's file, and
-    /// what stands there, indented as it stands.
-    pub fn of(rules: &RuleSet, task: &str, text: impl Fn(Place) -> Option<(String, String)>) -> Self {
+    /// A rule of a task's library; `text` gives the name of a place's file, and the
+    /// declaration that begins there, indented as it stands.
+    pub fn of(rules: &RuleSet, task: &str, id: &str, text: impl Fn(Place) -> Option<(String, String)>) -> Self {
         let task = rules.tasks.iter().find(|t| t.name == task);
-        let Some(library) = task.and_then(|t| rules.library(t)) else {
-            return Self::Gone("the program no longer has the task of this run".into());
+        let library = task.and_then(|t| rules.library(t));
+        let rule = library.and_then(|l| l.rules.iter().find(|r| r.id == id));
+        let (Some(library), Some(rule)) = (library, rule) else {
+            return Self::Gone("the program no longer has this rule".into());
         };
-        let passage = |rule: &Rule| {
-            let (file, text) = text(rule.place)?;
-            let text = shortened(&undented(&text), rule, library);
-            let line = rule.place.line;
-            Some((rule.id.clone(), Passage { file, line, text }))
-        };
-        Self::Here(library.rules.iter().filter_map(passage).collect())
+        match text(rule.place) {
+            Some((file, text)) => Self::Here(Passage {
+                file,
+                line: rule.place.line,
+                text: shortened(&undented(&text), rule, library),
+            }),
+            None => Self::Gone("the rule's text cannot be read".into()),
+        }
     }
 
-    pub(super) fn rule(&self, id: &str) -> Option<&Passage> {
+    pub(super) fn passage(&self) -> Option<&Passage> {
         match self {
-            Self::Here(rules) => rules.get(id),
-            Self::Gone(_) => None,
+            Self::Here(passage) => Some(passage),
+            Self::Unasked | Self::Gone(_) => None,
         }
     }
 
     pub(super) fn reservation(&self) -> Option<String> {
         match self {
-            Self::Here(_) => None,
             Self::Gone(why) => Some(why.clone()),
+            Self::Unasked | Self::Here(_) => None,
         }
     }
 }
