@@ -9,8 +9,8 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::time::Instant;
 
-use vpl::lang::syntax::{parse, tokens};
-use vpl::lang::{FileId, Memory, analyse, compile};
+use vpl::lang::syntax::parse;
+use vpl::lang::{FileId, Memory, analyse, compile, tokens};
 
 const FILE: &str = "large.vpl";
 const ROUNDS: usize = 15;
@@ -61,7 +61,7 @@ fn program(lines: usize) -> String {
     const LINES_OF_A_BOX: usize = 24;
     let boxes = (lines.saturating_sub(30) / LINES_OF_A_BOX).max(2);
     let mut text = String::from(
-        "vpl 1\n\nuse std.cameras.kinect_v2\nuse std.detect.coloured_plane\nuse std.markers.large_qr\nuse std.solids.{upright_rectangle, square_under}\nuse std.views.sphere\n\n/// Many boxes.\nlibrary boxes {\n",
+        "vpl 1\n\nuse std.cameras.kinect_v2\nuse std.detect.coloured_plane\nuse std.markers.large_qr\nuse std.solids.upright_rectangle\nuse std.views.sphere\n\n/// Many boxes.\nlibrary boxes {\n",
     );
     for k in 0..boxes {
         let _ = write!(
@@ -73,7 +73,7 @@ fn program(lines: usize) -> String {
 
   rule -> bottom{k} {{
     detect  coloured_plane(#{:06x})
-    measure outline(winding: ccw)
+    measure outline(begin: lowest)
   }}
 
   rule bottom{k} -> side{k} {{

@@ -66,7 +66,7 @@ fn entity(program: &Snapshot, target: &Target) -> Option<Entity> {
 
 /// The file that declares a target.
 pub(super) fn file<'p>(program: &'p Snapshot, target: &Target) -> Option<(FileId, &'p SourceFile)> {
-    program.sources().all().find(|(_, file)| path(file) == target.0)
+    program.sources().files().find(|(_, file)| path(file) == target.0)
 }
 
 /// Paths are compared without detours.

@@ -93,7 +93,7 @@ fn valid(new: &str) -> Result<(), Refusal> {
 
 /// The texts of a program that change, as they will be.
 fn texts(program: &Snapshot, places: &Renamed, new: &str) -> Vec<(String, String)> {
-    let changed = program.sources().all().filter_map(|(_, file)| {
+    let changed = program.sources().files().filter_map(|(_, file)| {
         let ranges = places.get(&path(file))?;
         let mut text = file.text.clone();
         for range in ranges.iter().rev() {

@@ -13,6 +13,7 @@ mod format;
 pub mod index;
 mod lower;
 mod names;
+mod repair;
 mod source;
 mod stdlib;
 pub mod syntax;
@@ -21,9 +22,13 @@ pub mod vocabulary;
 mod world;
 
 pub use analysis::{Analysis, Compilation, Expansion, analyse};
-pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
+pub use diagnostics::{
+    Code, Diagnostic, Edit, Fix, Format, Label, Severity, UnknownCode, edited, explain, index_of_codes, list_of_codes,
+    page, render, similar_codes, title,
+};
 pub use format::{Formatted, edits, format};
 pub(crate) use names::suggest::closest;
+pub use repair::{Applied, Repaired, repair};
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use syntax::{Token, TokenClass, tokens};
 pub use world::{MOST_BYTES, Memory, ReadFailure, World, normal};

@@ -270,7 +270,7 @@ pub(super) fn rename(
     let programs = workspace.programs(&path, &word);
     let programs: Vec<&Snapshot> = programs.iter().collect();
     let renamed = ide::rename(&programs, &workspace.documents, offset, new).map_err(|why| why.to_string())?;
-    let files = programs.iter().flat_map(|p| p.sources().all().map(|(_, file)| file));
+    let files = programs.iter().flat_map(|p| p.sources().files().map(|(_, file)| file));
     let files: BTreeMap<String, _> = files.map(|file| (crate::lang::normal(&file.display), file)).collect();
     let edits = renamed.iter().flat_map(|(path, places)| {
         let positions = files.get(path).map(|file| workspace.positions(file));

@@ -90,7 +90,7 @@ fn random_edits_are_survived() {
     for (k, example) in EXAMPLES.iter().enumerate() {
         let mut text = (*example).to_owned();
         client.open(URI, &text);
-        for round in 0..40 {
+        for round in 0..20 {
             let start = random.below(text.len());
             let start = boundary(&text, start);
             let end = boundary(&text, (start + random.below(12)).min(text.len()));
