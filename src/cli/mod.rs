@@ -3,6 +3,7 @@
 mod check;
 mod compile;
 mod files;
+mod fmt;
 mod plan;
 mod why;
 
@@ -26,6 +27,7 @@ struct Cli {
 enum Verb {
     Check(check::Check),
     Compile(compile::Compile),
+    Fmt(fmt::Fmt),
     Plan(Box<plan::Plan>),
     Why(why::Why),
 }
@@ -53,6 +55,9 @@ pub(crate) enum Failure {
     /// A run could not be made or continued.
     #[error("error[E0603]: {0}")]
     Run(String),
+    /// A layout would not have been the same program.
+    #[error("error[E0604]: {0} was left as it is: laid out it would be another program, which is a mistake of vpl")]
+    Layout(String),
     /// A run log cannot be read.
     #[error("error[E0711]: {0} cannot be read: {1}")]
     Log(String, String),
@@ -89,6 +94,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let outcome = match cli.verb {
         Verb::Check(check) => check::run(&check),
         Verb::Compile(compile) => compile::run(&compile),
+        Verb::Fmt(fmt) => fmt::run(&fmt),
         Verb::Plan(plan) => plan::run(&plan),
         Verb::Why(why) => why::run(&why),
     };
