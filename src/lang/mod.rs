@@ -13,6 +13,7 @@ mod format;
 pub mod index;
 mod lower;
 mod names;
+mod reading;
 mod repair;
 mod source;
 mod stdlib;
@@ -28,6 +29,7 @@ pub use diagnostics::{
 };
 pub use format::{Formatted, edits, format};
 pub(crate) use names::suggest::closest;
+pub use reading::read;
 pub use repair::{Applied, Repaired, repair};
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use syntax::{Token, TokenClass, tokens};

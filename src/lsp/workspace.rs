@@ -56,7 +56,12 @@ impl Workspace {
 
     /// The text of a file changed: every open program that reads it is stale.
     pub fn changed(&mut self, path: &str) {
-        let reads = |snapshot: &Snapshot| snapshot.sources().files().any(|(_, file)| normal(&file.display) == path);
+        let reads = |snapshot: &Snapshot| {
+            snapshot
+                .sources()
+                .files()
+                .any(|(_, file)| normal(&file.display) == path)
+        };
         let stale: Vec<String> = self
             .snapshots
             .iter()

@@ -141,6 +141,13 @@ fn what_the_parser_does_not_take_is_untouched() {
     }
 }
 
+#[test]
+fn templates_and_facts() {
+    insta::assert_snapshot!(laid_out(
+        "vpl 1\nlibrary box( width:length,prefix : text=\"b\" ){\nuse  other( width:width/2 )\nuse plain\nfeature a:marker\n}\ntest   \"two . boxes\"{\nlibrary box\ngiven code[7]   detected,\ncode[4] absent\ngiven a=polygon([[1mm,2mm,3mm]])\nexpect   classes tk5,tk9\nexpect not confident\nexpect rule a,b->c predicts   4 // four\nexpect code[2] at [0 mm,0 mm,1m] facing -x within 5mm\nexpect class tk9 -50%\n}\n"
+    ));
+}
+
 /// A program with its spaces, line ends and comments changed.
 fn mangled() -> impl Strategy<Value = String> {
     let gaps = prop::collection::vec(0_usize..12, 1..200);

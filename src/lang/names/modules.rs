@@ -6,8 +6,8 @@ use super::suggest::{did_you_mean, one_of};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::{FileId, SourceFile, SourceMap, Span};
 use crate::lang::syntax::{self, tree};
-use crate::lang::world::{MOST_BYTES, ReadFailure, World, normal};
-use crate::lang::{EDITION, stdlib};
+use crate::lang::world::{World, normal};
+use crate::lang::{EDITION, reading, stdlib};
 
 /// Most modules of a program; imports nest no deeper.
 const MOST_MODULES: usize = 256;
@@ -153,57 +153,17 @@ impl Loader<'_> {
             Key::Standard(name) => (format!("std/{name}.vpl"), format!("std/{name}.vpl")),
             Key::User(path) => (format!("{}{path}", self.folder), path.clone()),
         };
-        let bytes = match key {
-            Key::Standard(name) => Ok(stdlib::module(name).unwrap_or_default().as_bytes().to_vec()),
-            Key::User(_) => self.world.read(&display),
-        };
-        let bytes = match bytes {
-            Ok(bytes) => bytes,
-            Err(failure) => {
-                self.unreadable(display, path, &failure, import);
-                return None;
+        match key {
+            Key::Standard(name) => {
+                let text = stdlib::module(name).unwrap_or_default().to_owned();
+                Some(self.sources.add(SourceFile::new(display, path, text).shipped()))
             }
-        };
-        let (text, invalid) = match String::from_utf8(bytes) {
-            Ok(text) => (text, None),
-            Err(error) => {
-                let at = error.utf8_error().valid_up_to();
-                let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
-                (valid, Some(at))
+            Key::User(_) => {
+                let bytes = self.world.read(&display);
+                let read = reading::source(&display, &path, bytes, self.sources, import);
+                read.map_err(|found| self.found.push(*found)).ok()
             }
-        };
-        let file = SourceFile::new(display, path, text);
-        let id = self.sources.add(match key {
-            Key::Standard(_) => file.shipped(),
-            Key::User(_) => file,
-        });
-        let Some(at) = invalid else {
-            return Some(id);
-        };
-        let message = format!("the byte at offset {at} is no UTF-8 text");
-        self.found
-            .push(Diagnostic::new(Code::E0107, Span::new(id, at, at), message).help("save the program as UTF-8 text"));
-        None
-    }
-
-    fn unreadable(&mut self, display: String, path: String, failure: &ReadFailure, import: Option<Span>) {
-        let (code, message) = match failure {
-            ReadFailure::Missing => (Code::E0105, format!("there is no file `{display}`")),
-            ReadFailure::TooLarge => (
-                Code::E0106,
-                format!("`{display}` is larger than {} MB", MOST_BYTES >> 20),
-            ),
-            ReadFailure::Failed(why) => (Code::E0105, format!("`{display}` cannot be read: {why}")),
-        };
-        let at = import.unwrap_or_else(|| {
-            let id = self.sources.add(SourceFile::new(display, path, String::new()));
-            Span::new(id, 0, 0)
-        });
-        let help = match failure {
-            ReadFailure::TooLarge => Some("split it into modules and import them with `use`".to_owned()),
-            _ => import.map(|_| "a path is relative to the file that imports it".to_owned()),
-        };
-        self.found.push(Diagnostic::new(code, at, message).maybe_help(help));
+        }
     }
 
     /// The tree of a file of this edition.
