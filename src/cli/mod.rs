@@ -7,6 +7,7 @@ mod explain;
 mod files;
 mod new;
 mod plan;
+mod why;
 
 pub use files::Disk;
 
@@ -33,6 +34,7 @@ enum Verb {
     Explain(explain::Explain),
     Compile(compile::Compile),
     Plan(Box<plan::Plan>),
+    Why(why::Why),
     Completions(completions::Completions),
 }
 
@@ -59,9 +61,31 @@ pub(crate) enum Failure {
     /// A run could not be made or continued.
     #[error("error[{code}]: {0}", code = Code::E0603)]
     Run(String),
+    /// A run log cannot be read.
+    #[error("error[{code}]: {0} cannot be read: {1}", code = Code::E0711)]
+    Log(String, String),
+    /// A file is no run log.
+    #[error("error[{code}]: {0} is no run log: {1}", code = Code::E0712)]
+    NoLog(String, String),
+    /// A question about something that a run does not know.
+    #[error("error[{code}]: {0}", code = Code::E0713)]
+    Subject(String),
+    /// A question about a view that a run does not have.
+    #[error("error[{code}]: {0}", code = Code::E0714)]
+    Moment(String),
     /// The command was called wrongly.
     #[error("error: {0}")]
     Usage(String),
+}
+
+impl Failure {
+    /// The exit status: 2 where the command was called wrongly.
+    fn status(&self) -> u8 {
+        match self {
+            Self::Usage(_) | Self::Subject(_) | Self::Moment(_) => 2,
+            _ => 1,
+        }
+    }
 }
 
 /// Runs the program with its arguments, the program's name first.
@@ -76,6 +100,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Explain(explain) => explain::run(&explain),
         Verb::Compile(compile) => compile::run(&compile),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Why(why) => why::run(&why),
         Verb::Completions(completions) => completions::run(&completions),
     };
     match outcome {
@@ -84,7 +109,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(Failure::Write(_, error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
             let _ = writeln!(io::stderr(), "{failure}");
-            ExitCode::from(if matches!(failure, Failure::Usage(_)) { 2 } else { 1 })
+            ExitCode::from(failure.status())
         }
     }
 }

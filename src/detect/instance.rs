@@ -55,16 +55,9 @@ impl Measurement {
         match self {
             Self::Face(polygon) => vec![polygon.clone()],
             Self::Shell(faces) => faces.clone(),
-            Self::Marker { pose, size } => square(pose, *size).into_iter().collect(),
+            Self::Marker { pose, size } => Polygon::square(pose, *size).into_iter().collect(),
         }
     }
-}
-
-/// A marker's square of modules, counter-clockwise about its normal.
-fn square(pose: &Pose, size: f64) -> Option<Polygon> {
-    let h = size / 2.0;
-    let corner = |x: f64, y: f64| pose * Point::new(x, y, 0.0);
-    Polygon::new(vec![corner(-h, -h), corner(h, -h), corner(h, h), corner(-h, h)])
 }
 
 fn same_face(a: &Polygon, b: &Polygon, near: f64) -> bool {

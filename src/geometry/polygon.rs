@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::frame::{Point, Vector};
+use super::frame::{Point, Pose, Vector};
 
 /// A planar polygon.
 ///
@@ -72,6 +72,14 @@ impl Polygon {
         }
         let normal = newell(&vertices).try_normalize(1e-14)?;
         Some(Self { vertices, normal })
+    }
+
+    /// The square of edge `size` about a place's origin, facing its +z: lower left,
+    /// lower right, upper right, upper left as one looks at it.
+    pub fn square(world_from_place: &Pose, size: f64) -> Option<Self> {
+        let half = size / 2.0;
+        let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
+        Self::new(corners.map(|(x, y)| world_from_place * Point::new(x, y, 0.0)).to_vec())
     }
 
     /// The same polygon with its vertices ordered so that it faces `outward`.

@@ -7,7 +7,9 @@
 mod arguments;
 mod attributes;
 mod cameras;
+pub mod colours;
 mod detectors;
+mod faces;
 mod measures;
 mod points;
 mod predictors;
@@ -19,6 +21,7 @@ pub use arguments::{Arguments, Datum};
 pub use attributes::{Attribute, attributes};
 pub use cameras::camera;
 pub use detectors::{Envelope, ImageKind, envelope, printed_edge};
+pub use faces::MOST_CORNERS;
 pub use predictors::{Strength, strength};
 pub use reference::reference;
 pub use views::{MOST_VIEWS, poses};
@@ -152,6 +155,7 @@ pub fn all() -> impl Iterator<Item = &'static Primitive> {
         measures::ALL,
         predictors::ALL,
         points::ALL,
+        faces::ALL,
         views::ALL,
         cameras::ALL,
         shapes::ALL,

@@ -163,6 +163,20 @@ pub struct Each {
     pub attribute: String,
 }
 
+impl Rule {
+    /// Its head as it is written: `bottom, prism_side -> prism_shape`.
+    pub fn head(&self, library: &Library) -> String {
+        let name = |id: &FeatureId| library.feature(*id).name.as_str();
+        let antecedents: Vec<&str> = self.antecedents.iter().map(name).collect();
+        let arrow = format!("-> {}", name(&self.consequent));
+        if antecedents.is_empty() {
+            arrow
+        } else {
+            format!("{} {arrow}", antecedents.join(", "))
+        }
+    }
+}
+
 impl Library {
     /// The feature behind an id.
     pub fn feature(&self, id: FeatureId) -> &Feature {

@@ -1,6 +1,6 @@
 //! Every code with its title and its page: E01 syntax and files, E02 names, E03
-//! types and units, E04 task checks, E05 scenes, E06 what a command could not do;
-//! W04 warnings about tasks.
+//! types and units, E04 task checks, E05 scenes, E06 what a command could not do,
+//! E07 facts and questions about a run; W04 warnings about tasks.
 //!
 //! A code is declared here once; without its page `docs/diagnostics/CODE.md` the
 //! crate does not build, and a test runs the programs of each page.
@@ -68,6 +68,9 @@ codes! {
     E0208 "an unknown library, class or layout"
     E0209 "definitions that need each other in a circle"
     E0210 "an index that fits no family"
+    E0211 "a name that hides another"
+    E0212 "a template where a library is due"
+    E0213 "a default that reads a parameter"
     E0301 "a value of the wrong type"
     E0302 "a missing or an unknown unit"
     E0303 "a missing argument"
@@ -92,6 +95,13 @@ codes! {
     E0601 "a result that cannot be written"
     E0602 "a run that cannot be resumed"
     E0603 "a run that cannot be made"
+    E0701 "a fact that does not hold"
+    E0702 "evidence that contradicts itself"
+    E0703 "an expectation that cannot be checked"
+    E0711 "a run log that cannot be read"
+    E0712 "a file that is no run log"
+    E0713 "a question about something that a run does not know"
+    E0714 "a question about a view that a run does not have"
     W0401 "an attribute that has no value at first"
     W0402 "a feature that no class has"
     W0403 "a feature that every class has"

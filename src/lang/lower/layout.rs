@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Lowering;
+use super::expand::{Env, MOST_STEPS};
 use super::library::MOST_RULES;
 use crate::geometry::{Pose, frame_facing};
 use crate::lang::diagnostics::{Code, Diagnostic};
@@ -10,21 +11,28 @@ use crate::lang::types::typed;
 use crate::primitives::printed_edge;
 use crate::rules::{Call, Expr, FeatureId, Library, Rule, Value};
 
+/// Where the markers of a layout are, in the object's frame.
+pub(super) type Poses = Vec<(FeatureId, Pose)>;
+
 impl<'a> Lowering<'a> {
     /// Adds a rule for every ordered pair of places, in the order of the features.
     /// Says which definite rules are missing where the library is `whole` otherwise.
-    pub(super) fn layout(&mut self, layout: &'a typed::Layout, out: &mut Library, whole: bool) {
-        let n = layout.places.len();
-        if n.saturating_mul(n) + out.rules.len() > MOST_RULES {
-            self.too_far::<()>(layout.span);
-            return;
+    pub(super) fn layout(
+        &mut self,
+        layout: &'a typed::Layout,
+        env: &Env<'a>,
+        out: &mut Library,
+        whole: bool,
+    ) -> Option<Poses> {
+        let pairs = layout.places.len().saturating_mul(layout.places.len());
+        self.steps = self.steps.saturating_add(pairs);
+        if pairs + out.rules.len() > MOST_RULES || self.steps > MOST_STEPS {
+            return self.too_far(env.call.unwrap_or(layout.span));
         }
-        let places: Vec<Option<(FeatureId, Pose)>> = layout.places.iter().map(|p| self.place_pose(p)).collect();
-        let Some(mut places) = places.into_iter().collect::<Option<Vec<_>>>() else {
-            return;
-        };
+        let places: Vec<Option<(FeatureId, Pose)>> = layout.places.iter().map(|p| self.place_pose(p, env)).collect();
+        let mut places = places.into_iter().collect::<Option<Vec<_>>>()?;
         places.sort_by_key(|(feature, _)| *feature);
-        let definite = self.definite_rules(layout, out, whole);
+        let definite = self.definite_rules(layout, env, out, whole);
         for (a, frame_from_a) in &places {
             for (b, frame_from_b) in places.iter().filter(|(b, _)| a != b) {
                 let Some(rule) = definite.get(b) else { continue };
@@ -41,11 +49,12 @@ impl<'a> Lowering<'a> {
                 });
             }
         }
+        Some(places)
     }
 
     /// `frame_from_place`: the frame that the layout is written in is the object's.
-    pub(super) fn place_pose(&mut self, place: &'a typed::LayoutPlace) -> Option<(FeatureId, Pose)> {
-        let (at, facing) = (self.value(&place.at), self.value(&place.facing));
+    fn place_pose(&mut self, place: &'a typed::LayoutPlace, env: &Env<'a>) -> Option<(FeatureId, Pose)> {
+        let (at, facing) = (self.value(&place.at, env), self.value(&place.facing, env));
         match (at?, facing?) {
             (Value::Point(at), Value::Direction(facing)) => Some((place.feature, frame_facing(at, facing))),
             _ => None,
@@ -53,7 +62,13 @@ impl<'a> Lowering<'a> {
     }
 
     /// The definite rule of each placed feature, whose detection the pairs repeat.
-    fn definite_rules(&mut self, layout: &typed::Layout, library: &Library, whole: bool) -> BTreeMap<FeatureId, Rule> {
+    fn definite_rules(
+        &mut self,
+        layout: &typed::Layout,
+        env: &Env<'a>,
+        library: &Library,
+        whole: bool,
+    ) -> BTreeMap<FeatureId, Rule> {
         let mut out = BTreeMap::new();
         for place in &layout.places {
             let definite = library
@@ -67,7 +82,7 @@ impl<'a> Lowering<'a> {
                     let name = &library.feature(place.feature).name;
                     let message = format!("no rule says how `{name}` is detected by itself");
                     self.report(
-                        Diagnostic::new(Code::E0502, place.span, message)
+                        Diagnostic::new(Code::E0502, env.call.unwrap_or(place.span), message)
                             .help(format!("add `rule -> {name} {{ … }}` with `detect` and `measure`")),
                     );
                 }

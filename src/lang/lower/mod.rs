@@ -5,7 +5,10 @@
 //! definition comes down to.
 
 mod constants;
+mod environments;
 mod expand;
+mod faces;
+mod facts;
 mod layout;
 mod library;
 mod ranges;
@@ -18,7 +21,7 @@ use super::diagnostics::Diagnostic;
 use super::names::Program;
 use super::source::{SourceMap, Span};
 use super::types::typed;
-use crate::rules::{FORMAT, Place, RuleSet};
+use crate::rules::{FORMAT, Fact, Library, Place, RuleSet};
 
 /// The rule set as far as the program is right, with spans for the task checks.
 pub(super) struct Lowered {
@@ -29,6 +32,8 @@ pub(super) struct Lowered {
     pub task_spans: Vec<TaskSpans>,
     /// By scene: its backdrop.
     pub backdrop_spans: Vec<Span>,
+    /// The tests of the main file.
+    pub facts: Vec<Fact>,
 }
 
 /// Expands a checked program.
@@ -52,12 +57,17 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         whole: Vec::new(),
         task_spans: Vec::new(),
         backdrop_spans: Vec::new(),
+        facts: Vec::new(),
     };
     let mut libraries = Vec::new();
     for library in &typed.libraries {
         let before = lowering.found.len();
-        let lowered = lowering.library(library);
-        libraries.push((lowered, library.whole && lowering.found.len() == before));
+        let (lowered, poses) = lowering.library(library);
+        libraries.push(LoweredLibrary {
+            library: lowered,
+            poses,
+            whole: library.whole && lowering.found.len() == before,
+        });
     }
     for task in &typed.tasks {
         if let Some((task, spans)) = lowering.task(task) {
@@ -70,8 +80,18 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         out.rules.scenes.push(lowered);
         out.backdrop_spans.push(scene.backdrop_span);
     }
-    (out.rules.libraries, out.whole) = libraries.into_iter().unzip();
+    out.facts = lowering.facts(&typed.facts, &libraries);
+    (out.rules.libraries, out.whole) = libraries.into_iter().map(|l| (l.library, l.whole)).unzip();
     (out, lowering.found)
+}
+
+/// A library with what scenes need of it.
+struct LoweredLibrary {
+    library: Library,
+    /// By layout; `None` where a place is wrong.
+    poses: Vec<Option<layout::Poses>>,
+    /// Whether all of it was lowered.
+    whole: bool,
 }
 
 struct Lowering<'a> {

@@ -1,14 +1,14 @@
 //! Scenes: backdrops, objects and the markers that they carry.
 
-use super::Lowering;
 use super::expand::Env;
+use super::{LoweredLibrary, Lowering};
 use crate::geometry::{Pose, Rotation, Vector};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::types::typed;
-use crate::rules::{Backdrop, Library, Marker, Scene, SceneObject, Value};
+use crate::rules::{Backdrop, Marker, Scene, SceneObject, Value};
 
 impl<'a> Lowering<'a> {
-    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[(Library, bool)]) -> Scene {
+    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[LoweredLibrary]) -> Scene {
         Scene {
             name: scene.name.clone(),
             backdrop: scene.backdrop.as_ref().and_then(|b| self.backdrop(b)),
@@ -25,10 +25,10 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    fn object(&mut self, object: &'a typed::Object, libraries: &[(Library, bool)]) -> Option<SceneObject> {
+    fn object(&mut self, object: &'a typed::Object, libraries: &[LoweredLibrary]) -> Option<SceneObject> {
         let shape = self.primitive(&object.shape, &Env::default());
-        let at = self.value(&object.at);
-        let yaw = object.turned.as_ref().map(|t| self.value(t));
+        let at = self.value(&object.at, &Env::default());
+        let yaw = object.turned.as_ref().map(|t| self.value(t, &Env::default()));
         let markers = match &object.marked {
             None => Some(Vec::new()),
             Some(marked) => self.markers(marked, libraries),
@@ -47,27 +47,24 @@ impl<'a> Lowering<'a> {
 
     /// A print for every marker that the class has, where the layout puts it. What a
     /// library lacks is said where that library is whole otherwise.
-    fn markers(&mut self, marked: &'a typed::Marked, libraries: &[(Library, bool)]) -> Option<Vec<Marker>> {
-        let typed = &self.typed.libraries[marked.library];
-        let (library, whole) = libraries.get(marked.library)?;
+    fn markers(&mut self, marked: &'a typed::Marked, libraries: &[LoweredLibrary]) -> Option<Vec<Marker>> {
+        let LoweredLibrary { library, poses, whole } = libraries.get(marked.library)?;
         let class = library.classes.get(marked.class)?;
-        let layout = typed.layouts.get(marked.layout)?;
         let mut out = Vec::new();
-        for place in &layout.places {
-            if !class.presence.has(place.feature) {
+        for (feature, object_from_marker) in poses.get(marked.layout)?.as_ref()? {
+            if !class.presence.has(*feature) {
                 continue;
             }
-            let (_, object_from_marker) = self.place_pose(place)?;
             let print = library
                 .rules
                 .iter()
-                .filter(|r| r.consequent == place.feature)
+                .filter(|r| r.consequent == *feature)
                 .find_map(|r| Some((r.detect.text("text").ok()?, r.detect.length("size").ok()?)));
             let Some((text, size)) = print else {
                 if !whole {
                     return None;
                 }
-                let name = &library.feature(place.feature).name;
+                let name = &library.feature(*feature).name;
                 let message = format!("no rule says what is printed on `{name}`");
                 let help = "detect it with `qr(text: …, size: …)`";
                 self.report(Diagnostic::new(Code::E0502, marked.span, message).help(help));
@@ -76,7 +73,7 @@ impl<'a> Lowering<'a> {
             out.push(Marker {
                 text: text.to_owned(),
                 size,
-                object_from_marker,
+                object_from_marker: *object_from_marker,
             });
         }
         Some(out)

@@ -6,13 +6,16 @@
 
 #[cfg(test)]
 mod agreement;
+mod block;
 mod build;
 mod expected;
 mod expressions;
+mod facts;
 mod guard;
 mod libraries;
 mod recover;
 mod tasks;
+mod tokens;
 pub mod tree;
 
 use std::num::NonZeroUsize;
@@ -23,6 +26,9 @@ use pest_derive::Parser;
 
 use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
+
+pub use block::block;
+pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.
 #[derive(Parser)]
