@@ -7,6 +7,7 @@ mod explain;
 mod files;
 mod new;
 mod plan;
+mod test;
 mod why;
 
 pub use files::Disk;
@@ -34,6 +35,7 @@ enum Verb {
     Explain(explain::Explain),
     Compile(compile::Compile),
     Plan(Box<plan::Plan>),
+    Test(test::Test),
     Why(why::Why),
     Completions(completions::Completions),
 }
@@ -100,6 +102,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Explain(explain) => explain::run(&explain),
         Verb::Compile(compile) => compile::run(&compile),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Test(test) => test::run(&test),
         Verb::Why(why) => why::run(&why),
         Verb::Completions(completions) => completions::run(&completions),
     };

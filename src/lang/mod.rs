@@ -8,6 +8,7 @@
 
 mod checks;
 mod diagnostics;
+mod format;
 mod lower;
 mod names;
 mod repair;
@@ -21,6 +22,7 @@ pub use diagnostics::{
     Code, Diagnostic, Edit, Fix, Format, Label, Severity, UnknownCode, edited, explain, index_of_codes, list_of_codes,
     page, render, similar_codes, title,
 };
+pub use format::{Formatted, edits, format};
 pub(crate) use names::suggest::closest;
 pub use repair::{Applied, Repaired, repair};
 pub use source::{FileId, SourceFile, SourceMap, Span};

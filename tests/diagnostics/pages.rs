@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use vpl::facts;
 use vpl::lang::{self, Code, Memory, Severity, title};
 
 /// Codes that no single text gives: files, bytes, runs.
@@ -43,10 +44,16 @@ impl<'a> Page<'a> {
     }
 }
 
-/// The codes that a program gives, and whether it compiles.
+/// The codes that a program and its facts give, and whether it compiles.
 fn codes(text: &str) -> (Vec<Code>, bool) {
     let compiled = lang::compile("main.vpl", &Memory::of("main.vpl", text));
-    let codes = compiled.diagnostics.iter().map(|d| d.code).collect();
+    let mut codes: Vec<Code> = compiled.diagnostics.iter().map(|d| d.code).collect();
+    if let Some(rules) = &compiled.rules {
+        let failed = facts::run(rules, &compiled.facts)
+            .into_iter()
+            .flat_map(|verdict| verdict.failures);
+        codes.extend(failed.map(|_| Code::E0701));
+    }
     (codes, compiled.rules.is_some())
 }
 

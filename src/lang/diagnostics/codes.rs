@@ -1,6 +1,6 @@
 //! Every code with its title and its page: E01 syntax and files, E02 names, E03
 //! types and units, E04 task checks, E05 scenes, E06 what a command could not do,
-//! E07 facts and questions about a run; W04 warnings about tasks.
+//! E07 facts and questions about runs; W04 warnings and N04 notes about tasks.
 //!
 //! A code is declared here once; without its page `docs/diagnostics/CODE.md` the
 //! crate does not build, and a test runs the programs of each page.

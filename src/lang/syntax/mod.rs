@@ -14,6 +14,7 @@ mod facts;
 mod guard;
 mod libraries;
 mod recover;
+mod same;
 mod tasks;
 mod tokens;
 pub mod tree;
@@ -28,6 +29,8 @@ use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
 
 pub use block::block;
+pub(super) use same::same_program;
+pub(super) use tokens::read;
 pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.
