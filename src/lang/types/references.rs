@@ -140,7 +140,7 @@ impl Checker<'_> {
                 "it is in the standard library: add `use std.{module}.{}`",
                 name.text
             )),
-            (Some(near), _) => out.meant(near),
+            (Some(near), _) => out.meant(&near),
             (None, None) => out.help("define it with `let`, or import it with `use`"),
         });
     }
