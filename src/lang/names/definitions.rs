@@ -198,9 +198,7 @@ fn not_there(name: &tree::Name, title: &str, own: &Own) -> Diagnostic {
         ));
     }
     match closest(text, own.keys().map(String::as_str)) {
-        Some(near) => out
-            .help(format!("did you mean `{near}`?"))
-            .fix(format!("write `{near}`"), name.span, near),
+        Some(near) => out.meant(near),
         None => out.help(format!("it defines {}", one_of(own.keys().map(String::as_str)))),
     }
 }

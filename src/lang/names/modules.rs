@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::suggest::{did_you_mean, one_of};
+use super::suggest::{closest, one_of};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::{FileId, SourceFile, SourceMap, Span};
 use crate::lang::syntax::{self, tree};
@@ -112,18 +112,24 @@ impl Loader<'_> {
 
     fn standard(&mut self, words: &[tree::Name], span: Span) -> Option<Key> {
         let texts: Vec<&str> = words.iter().map(|w| w.text.as_str()).collect();
-        let help = match texts.as_slice() {
-            ["std", name] if stdlib::module(name).is_some() => return Some(Key::Standard((*name).to_owned())),
-            ["std", name, ..] => did_you_mean(name, stdlib::names())
-                .unwrap_or_else(|| format!("the standard library has {}", one_of(stdlib::names()))),
-            ["std"] => format!("name a module: {}", one_of(stdlib::names())),
-            _ => {
-                "the standard library is `std`; a file of yours is imported by its path: `use \"file.vpl\".name`".into()
-            }
-        };
+        if let ["std", name] = texts.as_slice()
+            && stdlib::module(name).is_some()
+        {
+            return Some(Key::Standard((*name).to_owned()));
+        }
         let at = words.get(1).or(words.first()).map_or(span, |w| w.span);
         let message = format!("there is no module `{}`", texts.join("."));
-        self.found.push(Diagnostic::new(Code::E0204, at, message).help(help));
+        let out = Diagnostic::new(Code::E0204, at, message);
+        self.found.push(match texts.as_slice() {
+            ["std", name, ..] => match closest(name, stdlib::names()) {
+                Some(near) => out.meant(near),
+                None => out.help(format!("the standard library has {}", one_of(stdlib::names()))),
+            },
+            ["std"] => out.help(format!("name a module: {}", one_of(stdlib::names()))),
+            _ => out.help(
+                "the standard library is `std`; a file of yours is imported by its path: `use \"file.vpl\".name`",
+            ),
+        });
         None
     }
 

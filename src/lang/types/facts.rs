@@ -203,8 +203,8 @@ impl<'a> Checker<'a> {
             match habit.filter(|ours| names.contains(ours) && closest(&word.text, names.iter().copied()).is_none()) {
                 Some(ours) => {
                     let message = format!("{what} cannot be `{}`", word.text);
-                    let out = Diagnostic::new(Code::E0306, word.span, message).help(format!("did you mean `{ours}`?"));
-                    self.report(out.fix(format!("write `{ours}`"), word.span, ours));
+                    let out = Diagnostic::new(Code::E0306, word.span, message);
+                    self.report(out.meant(ours));
                 }
                 None => self.unknown_word(word, what, &names),
             }

@@ -175,10 +175,7 @@ impl Checker<'_> {
             let known = || families.by_name.keys().map(String::as_str);
             let out = Diagnostic::new(Code::E0207, name.span, format!("there is no feature `{}`", name.text));
             self.report(match closest(&name.text, known()) {
-                Some(near) => {
-                    out.help(format!("did you mean `{near}`?"))
-                        .fix(format!("write `{near}`"), name.span, near)
-                }
+                Some(near) => out.meant(near),
                 None if families.by_name.is_empty() => out.help("declare it: `feature name : polygon`"),
                 None => out.help(format!("the library has {}", one_of(known()).replace(" or ", " and "))),
             });

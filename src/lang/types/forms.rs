@@ -5,7 +5,7 @@ use super::scope::Scope;
 use super::typed::Expr;
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::index::Entity;
-use crate::lang::names::suggest::{did_you_mean, one_of};
+use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::syntax::tree;
 use crate::primitives::{Default, Parameter, Primitive, Type};
 use crate::rules::{Colour, Value};
@@ -92,10 +92,12 @@ impl Checker<'_> {
             }
         };
         let Some(form) = forms.iter().find(|f| f.name == call.name.text) else {
-            let help =
-                did_you_mean(&call.name.text, names()).unwrap_or_else(|| format!("write `{}`", usage(&forms[0])));
             let message = format!("{what} cannot be `{}`", call.name.text);
-            self.report(Diagnostic::new(Code::E0306, call.name.span, message).help(help));
+            let out = Diagnostic::new(Code::E0306, call.name.span, message);
+            self.report(match closest(&call.name.text, names()) {
+                Some(near) => out.meant(near),
+                None => out.help(format!("write `{}`", usage(&forms[0]))),
+            });
             return None;
         };
         self.names.uses(call.name.span, Entity::Primitive(form.name));

@@ -6,7 +6,7 @@ use super::typed::Parameter;
 use super::{Checker, units};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::index::{Entity, Kind};
-use crate::lang::names::suggest::did_you_mean;
+use crate::lang::names::suggest::closest;
 use crate::lang::names::{self, Module};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree;
@@ -105,10 +105,12 @@ impl Checker<'_> {
         let element = &name.element;
         let Some((word, mut ty)) = units::named(&element.text) else {
             let known = units::NAMED.iter().map(|(name, _)| *name);
-            let help = did_you_mean(&element.text, known.clone())
-                .unwrap_or_else(|| format!("types are {}", known.collect::<Vec<_>>().join(", ")));
             let message = format!("there is no type `{}`", element.text);
-            self.report(Diagnostic::new(Code::E0201, element.span, message).help(help));
+            let out = Diagnostic::new(Code::E0201, element.span, message);
+            self.report(match closest(&element.text, known.clone()) {
+                Some(near) => out.meant(near),
+                None => out.help(format!("types are {}", known.collect::<Vec<_>>().join(", "))),
+            });
             return None;
         };
         self.names.uses(element.span, Entity::Type(word));

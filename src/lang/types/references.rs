@@ -153,10 +153,7 @@ impl Checker<'_> {
                 "it is in the standard library: add `use std.{module}.{}`",
                 name.text
             )),
-            (Some(near), _) => {
-                out.help(format!("did you mean `{near}`?"))
-                    .fix(format!("write `{near}`"), name.span, near)
-            }
+            (Some(near), _) => out.meant(&near),
             (None, None) => out.help("define it with `let`, or import it with `use`"),
         });
     }
@@ -201,9 +198,7 @@ impl Checker<'_> {
             format!("a {kind} like `{owner}` has no attribute `{}`", field.text),
         );
         self.report(match closest(&field.text, names()) {
-            Some(near) => out
-                .help(format!("did you mean `{near}`?"))
-                .fix(format!("write `{near}`"), field.span, near),
+            Some(near) => out.meant(near),
             None => out.help(format!("it has {}", one_of(names()).replace(" or ", " and "))),
         });
         None

@@ -53,9 +53,7 @@ impl Checker<'_> {
     pub(super) fn unknown_word(&mut self, name: &tree::Name, what: &str, words: &[&str]) {
         let out = Diagnostic::new(Code::E0306, name.span, format!("{what} cannot be `{}`", name.text));
         let out = match closest(&name.text, words.iter().copied()) {
-            Some(near) => out
-                .help(format!("did you mean `{near}`?"))
-                .fix(format!("write `{near}`"), name.span, near),
+            Some(near) => out.meant(near),
             None => out.help(format!("it is {}", one_of(words.iter().copied()))),
         };
         self.report(out);
