@@ -193,8 +193,10 @@ impl Loader<'_> {
             self.found.push(newer.clone());
             return None;
         }
+        // What is no program at all has one thing to be said about it.
+        let is_a_program = edition.is_none() || !tree.items.is_empty();
         self.found.extend(edition);
-        self.found.extend(found);
+        self.found.extend(found.into_iter().filter(|_| is_a_program));
         Some(tree)
     }
 }

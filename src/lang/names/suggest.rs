@@ -61,6 +61,7 @@ const FOREIGN: &[(&str, &str)] = &[
     ("rotated", "turned"),
     ("background", "backdrop"),
     ("or", "else"),
+    ("elif", "else"),
     ("plane", "polygon"),
     ("face", "polygon"),
     ("distance", "length"),

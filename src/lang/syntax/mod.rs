@@ -12,12 +12,15 @@ mod expected;
 mod expressions;
 mod facts;
 mod guard;
+mod habits;
 mod libraries;
 mod recover;
 mod same;
+mod slips;
 mod tasks;
 mod tokens;
 pub mod tree;
+mod usage;
 
 use std::num::NonZeroUsize;
 use std::sync::Once;

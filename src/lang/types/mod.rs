@@ -15,6 +15,7 @@ pub(super) mod forms;
 mod inclusion;
 mod layouts;
 mod library;
+mod mismatch;
 mod operators;
 mod parameters;
 mod references;
@@ -53,6 +54,7 @@ pub(super) fn check(program: &Program) -> (typed::Program, Index, Vec<Diagnostic
         known_coverage: BTreeMap::new(),
         unknown: BTreeSet::new(),
         names: Recorder::new(program),
+        unknown_arguments: BTreeMap::new(),
         found: Vec::new(),
     };
     checker.all_signatures();
@@ -84,6 +86,8 @@ struct Checker<'a> {
     /// Unknown names that were reported, each once a file.
     unknown: BTreeSet<(FileId, &'static str, String)>,
     names: Recorder,
+    /// Unknown arguments by callee and name: which of `found` says so.
+    unknown_arguments: BTreeMap<(FileId, String, String), usize>,
     found: Vec<Diagnostic>,
 }
 

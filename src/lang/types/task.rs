@@ -200,7 +200,12 @@ impl<'a> Checker<'a> {
             exhausted: false,
         };
         for name in words {
-            let part = match self.one_of_words(name, "`goal`", GOALS)? {
+            let Some(word) = GOALS.iter().copied().find(|word| *word == name.text) else {
+                self.no_goal(name);
+                return None;
+            };
+            self.names.uses(name.span, Entity::Word(word));
+            let part = match word {
                 "confident" => &mut goal.confident,
                 _ => &mut goal.exhausted,
             };
@@ -210,6 +215,22 @@ impl<'a> Checker<'a> {
             }
         }
         Some(goal)
+    }
+
+    fn no_goal(&mut self, name: &tree::Name) {
+        let out = Diagnostic::new(Code::E0306, name.span, format!("`goal` cannot be `{}`", name.text));
+        let ours = match name.text.to_ascii_lowercase().as_str() {
+            "classify" | "recognise" | "recognize" | "identify" | "detect" | "class" => Some("confident"),
+            "reconstruct" | "explore" | "scan" | "inspect" | "cover" | "complete" | "model" => Some("exhausted"),
+            other => closest(other, ["confident", "exhausted"]),
+        };
+        let out = out.help(
+            "it is `confident` (the class is known), `exhausted` (no view can gain anything) or `confident and exhausted`",
+        );
+        self.report(match ours {
+            Some(ours) => out.fix(format!("write `{ours}`"), name.span, ours),
+            None => out,
+        });
     }
 
     fn one_of_words(&mut self, name: &tree::Name, what: &str, words: &[&'static str]) -> Option<&'static str> {

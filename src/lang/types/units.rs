@@ -122,12 +122,12 @@ pub(in crate::lang) fn example(ty: Type) -> Option<&'static str> {
         Type::Time => "like `100 ms`",
         Type::Number => "like `0.5`",
         Type::Count => "like `64`",
-        Type::Colour => "a name like `red`, or `#ff8000`",
+        Type::Colour => "like `red` or `#ff8000`",
         Type::Text => "in double quotes",
         Type::Direction => "like `+x`, `-z` or `[0, 0.7, 0.7]`",
         Type::Point => "like `[0 mm, 0 mm, 300 mm]`",
         Type::Edge => "like `bottom.base`, or the variable of a `for each`",
-        Type::Polygon => "the name of a polygon feature",
+        Type::Polygon => "by the name of a polygon feature",
         _ => return None,
     })
 }
