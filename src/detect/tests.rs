@@ -188,7 +188,7 @@ fn a_code_of_another_text_or_size_is_not_this_one() {
     let (sim, _) = tank(&space, 0.0);
     let from_above = crate::geometry::look_at(Point::new(0.3, 0.0, 1.55), Point::origin());
     let scan = Scan::new(&sim.observe(&kinect(), &from_above, Noise::None, 1, 0), &space);
-    let count = |text: &str, size: f64| qr::qr(&scan, text, size).len();
+    let count = |text: &str, size: f64| qr::qr(&scan, text, size).0.len();
     assert_eq!(
         (
             count("f7", SIZE),

@@ -13,6 +13,16 @@ pub(super) fn names(rules: &[Rule]) -> Vec<String> {
     found.into_iter().map(|(_, text)| text).collect()
 }
 
+/// Without what may always follow and is never needed: operators, `else`, an index.
+pub(super) fn essential(names: &[String]) -> Vec<String> {
+    const CONTINUE: [&str; 6] = ["an operator", "`else`", "a unit", "`.`", "`[`", "`(`"];
+    let needed: Vec<String> = (names.iter())
+        .filter(|name| !CONTINUE.contains(&name.as_str()))
+        .cloned()
+        .collect();
+    if needed.is_empty() { names.to_vec() } else { needed }
+}
+
 /// `a, b or c`, cut short where it is long.
 pub(super) fn list(names: &[String]) -> String {
     const MOST: usize = 14;
@@ -149,6 +159,7 @@ fn describe(expected: Rule) -> Option<(u8, String)> {
         | Rule::marked
         | Rule::prior => return Some((1, format!("`{debug}`"))),
         Rule::test | Rule::given | Rule::expect | Rule::within => return Some((1, format!("`{debug}`"))),
+        Rule::state => "a state like `detected`",
         Rule::supposed => "a feature and what is known of it",
         Rule::measured => "`=`",
         Rule::located | Rule::placed => "`at`",

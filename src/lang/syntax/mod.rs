@@ -12,11 +12,15 @@ mod expected;
 mod expressions;
 mod facts;
 mod guard;
+mod habits;
 mod libraries;
 mod recover;
+mod same;
+mod slips;
 mod tasks;
 mod tokens;
 pub mod tree;
+mod usage;
 
 use std::num::NonZeroUsize;
 use std::sync::Once;
@@ -28,6 +32,8 @@ use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
 
 pub use block::block;
+pub(super) use same::same_program;
+pub(super) use tokens::read;
 pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.
@@ -57,15 +63,15 @@ fn limit_calls() {
 }
 
 /// Whether the strict entry accepts a text.
-#[cfg(test)]
-pub(super) fn strictly_accepts(text: &str) -> bool {
+#[cfg(any(test, fuzzing))]
+pub fn strictly_accepts(text: &str) -> bool {
     limit_calls();
     guard::refuse(FileId(0), text).is_none() && Grammar::parse(Rule::file, text).is_ok()
 }
 
 /// Whether the tolerant entry finds nothing bad in a text.
-#[cfg(test)]
-pub(super) fn tolerantly_accepts(text: &str) -> bool {
+#[cfg(any(test, fuzzing))]
+pub fn tolerantly_accepts(text: &str) -> bool {
     limit_calls();
     let pairs = Grammar::parse(Rule::tolerant_file, text);
     guard::refuse(FileId(0), text).is_none()

@@ -4,11 +4,13 @@
 //! the tolerant entry read it as one. What no entry reads (a bad region, a text that
 //! the [`super::guard`] refuses) is read plainly, word by word.
 
+use std::ops::Range;
+
 use pest::Parser as _;
 use pest::Token as Event;
 use pest::iterators::Pairs;
 
-use super::{FileId, Grammar, Rule, guard, limit_calls};
+use super::{FileId, Grammar, Rule, guard, limit_calls, recover};
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -68,29 +70,41 @@ impl Token {
 /// The tokens of any text, in order, none overlapping. Only spaces, tabs and a byte
 /// order mark at the beginning belong to none.
 pub fn tokens(text: &str) -> Vec<Token> {
+    read(text).tokens
+}
+
+/// The tokens of a text, and what of it was parsed.
+pub(in crate::lang) struct Reading<'t> {
+    text: &'t str,
+    done: usize,
+    pub(in crate::lang) tokens: Vec<Token>,
+    /// Regions that could not be read.
+    pub(in crate::lang) bad: Vec<Range<usize>>,
+    /// Whether the parser saw the text.
+    pub(in crate::lang) parsed: bool,
+}
+
+/// Reads any text.
+pub(in crate::lang) fn read(text: &str) -> Reading<'_> {
     limit_calls();
     let mut reading = Reading {
         text,
         done: if text.starts_with(BOM) { BOM.len_utf8() } else { 0 },
         tokens: Vec::new(),
+        bad: Vec::new(),
+        parsed: false,
     };
     if guard::refuse(FileId(0), text).is_none()
         && let Ok(pairs) = Grammar::parse(Rule::tolerant_file, text)
     {
+        reading.parsed = true;
         reading.take(pairs, 0);
     }
     reading.plainly_to(text.len());
-    reading.tokens
+    reading
 }
 
 const BOM: char = '\u{FEFF}';
-
-/// Tokens up to a byte of a text.
-struct Reading<'t> {
-    text: &'t str,
-    done: usize,
-    tokens: Vec<Token>,
-}
 
 impl Reading<'_> {
     /// Takes what the parser read in a part that begins at `offset`.
@@ -134,6 +148,7 @@ impl Reading<'_> {
                 }
                 self.push(class, start, end);
             }
+            None if recover::strict_entry(kind).is_some() => self.bad.push(start..end),
             None => {}
         }
     }
@@ -176,7 +191,7 @@ fn class(kind: Rule, parent: Option<Rule>, written: &str) -> Option<TokenClass> 
     Some(match kind {
         // The grammar lists keywords before punctuation, without a break.
         _ if (Rule::kw_vpl..Rule::comma).contains(&kind) => TokenClass::Keyword,
-        Rule::reserved => TokenClass::Keyword,
+        Rule::reserved | Rule::state => TokenClass::Keyword,
         Rule::name => return name_class(parent),
         Rule::number | Rule::integer | Rule::cell | Rule::edition => TokenClass::Number,
         Rule::unit => TokenClass::Unit,
@@ -233,7 +248,17 @@ mod tests {
                 before.is_some_and(|b| b.trim_matches([' ', '\t']).is_empty()),
                 "{before:?}"
             );
-            prop_assert!(text.get(token.start..token.end).is_some(), "{token:?} cuts a character");
+            let written = text.get(token.start..token.end);
+            let begins_blank = token.class == TokenClass::Text;
+            prop_assert!(
+                begins_blank || written.is_some_and(|w| !w.starts_with([' ', '\t'])),
+                "{token:?}"
+            );
+            let is_comment = matches!(token.class, TokenClass::Comment | TokenClass::Doc);
+            prop_assert!(
+                is_comment || written.is_some_and(|w| !w.ends_with([' ', '\t'])),
+                "{token:?}"
+            );
             at = token.end;
         }
         prop_assert_eq!(text[at..].trim_matches([' ', '\t']), "");
