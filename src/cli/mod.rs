@@ -5,6 +5,7 @@ mod compile;
 mod completions;
 mod explain;
 mod files;
+mod lsp;
 mod new;
 mod plan;
 mod test;
@@ -34,6 +35,7 @@ enum Verb {
     Check(check::Check),
     Explain(explain::Explain),
     Compile(compile::Compile),
+    Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
     Test(test::Test),
     Why(why::Why),
@@ -101,6 +103,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Check(check) => check::run(&check),
         Verb::Explain(explain) => explain::run(&explain),
         Verb::Compile(compile) => compile::run(&compile),
+        Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
         Verb::Test(test) => test::run(&test),
         Verb::Why(why) => why::run(&why),

@@ -30,7 +30,9 @@ pub(super) fn resolve(loaded: Vec<Loaded>, sources: &SourceMap) -> (Program, Vec
         .into_iter()
         .zip(loaded)
         .map(|(((scope, libraries), lost), module)| Module {
+            file: module.file,
             tree: module.tree,
+            imports: module.imports,
             scope,
             libraries,
             lost,

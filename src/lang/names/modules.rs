@@ -6,7 +6,7 @@ use super::suggest::{closest, one_of};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::{FileId, SourceFile, SourceMap, Span};
 use crate::lang::syntax::{self, tree};
-use crate::lang::world::{MOST_BYTES, ReadFailure, World};
+use crate::lang::world::{MOST_BYTES, ReadFailure, World, normal};
 use crate::lang::{EDITION, stdlib};
 
 /// Most modules of a program; imports nest no deeper.
@@ -14,6 +14,7 @@ const MOST_MODULES: usize = 256;
 
 /// A file that was read, and what its imports point to.
 pub(super) struct Loaded {
+    pub file: FileId,
     pub tree: tree::File,
     /// The module behind each import in order; `None` where it failed.
     pub imports: Vec<Option<usize>>,
@@ -77,6 +78,7 @@ impl Loader<'_> {
         let imports = imports.map(|import| self.import(&key, import)).collect();
         self.reading.pop();
         self.modules[index] = Some(Loaded {
+            file,
             tree,
             imports,
             title: title(&key),
@@ -270,30 +272,5 @@ fn title(key: &Key) -> String {
     match key {
         Key::Standard(name) => format!("std.{name}"),
         Key::User(path) => path.clone(),
-    }
-}
-
-/// A path without `.` and without `..` behind a folder.
-fn normal(path: &str) -> String {
-    let mut parts: Vec<&str> = Vec::new();
-    for part in path.split('/') {
-        match part {
-            "" | "." => {}
-            ".." if parts.last().is_some_and(|p| *p != "..") => drop(parts.pop()),
-            _ => parts.push(part),
-        }
-    }
-    parts.join("/")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::normal;
-
-    #[test]
-    fn paths_are_compared_without_detours() {
-        assert_eq!(normal("a/./b/../c.vpl"), "a/c.vpl");
-        assert_eq!(normal("../../x.vpl"), "../../x.vpl");
-        assert_eq!(normal("a/../../x.vpl"), "../x.vpl");
     }
 }

@@ -9,6 +9,7 @@ use super::scope::Scope;
 use super::stated::{Fact, Given, Place};
 use super::typed::Library;
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Kind;
 use crate::lang::names::suggest::closest;
 use crate::lang::source::Span;
 use crate::lang::syntax::tree;
@@ -51,6 +52,9 @@ impl<'a> Checker<'a> {
             let found = libraries.iter().position(|l| l.name == name.text);
             if found.is_none() {
                 self.no_library(name, libraries);
+            }
+            if found.is_some() {
+                self.uses_listed(name);
             }
             return found;
         }
@@ -138,6 +142,9 @@ impl<'a> Checker<'a> {
         if found.is_none() {
             let known = library.classes.iter().map(|c| c.name.as_str());
             self.unknown_item("class", name, known, self.program.main());
+        }
+        if let Some(k) = found {
+            self.names.member(Kind::Class, library.classes[k].span, name);
         }
         found
     }
