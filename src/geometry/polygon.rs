@@ -123,6 +123,17 @@ impl Polygon {
         }
     }
 
+    /// The vertex farthest from the line of the first edge, and that distance.
+    pub fn apex(&self) -> (Point, f64) {
+        let base = self.edge(0);
+        let from_line = |p: &Point| (p - base.start).cross(&base.direction()).norm();
+        let first = (base.start, 0.0);
+        self.vertices.iter().fold(first, |best, vertex| {
+            let distance = from_line(vertex);
+            if distance > best.1 { (*vertex, distance) } else { best }
+        })
+    }
+
     /// Area, square metres.
     pub fn area(&self) -> f64 {
         newell(&self.vertices).norm() / 2.0

@@ -12,16 +12,21 @@ mod format;
 mod lower;
 mod names;
 mod reading;
+mod repair;
 mod source;
 mod stdlib;
 pub mod syntax;
 mod types;
 mod world;
 
-pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
+pub use diagnostics::{
+    Code, Diagnostic, Edit, Fix, Format, Label, Severity, UnknownCode, edited, explain, index_of_codes, list_of_codes,
+    page, render, similar_codes, title,
+};
 pub use format::{Formatted, edits, format};
 pub(crate) use names::suggest::closest;
 pub use reading::read;
+pub use repair::{Applied, Repaired, repair};
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use syntax::{Token, TokenClass, tokens};
 pub use world::{MOST_BYTES, Memory, ReadFailure, World};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Lowering, constants, ranges};
+use super::{Lowering, constants, faces, ranges};
 use crate::geometry::{Point, Vector};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::Span;
@@ -137,6 +137,7 @@ impl<'a> Lowering<'a> {
                 );
                 Some(Expr::Else(Box::new(a?), Box::new(b?)))
             }
+            Expr::Call(call) if faces::is_written(call) => faces::attribute(call, attribute),
             _ => {
                 let message = format!("`{attribute}` is read from this, and it is no feature");
                 self.report(Diagnostic::new(Code::E0206, span, message).help("give the name of a polygon feature"));

@@ -7,6 +7,9 @@ use crate::rules::{Call, Expr, Value};
 /// How far a corner may lie off the plane of the others, over the face's extent.
 const UNEVEN: f64 = 0.01;
 
+/// Least area of a face, over its extent squared.
+const NEEDLE: f64 = 1e-6;
+
 /// The corners of a `polygon` call; `None` where some are not known before the robot moves.
 pub(super) fn corners(call: &Call) -> Option<Vec<Point>> {
     let Some(Expr::List(items)) = call.arguments.get("corners") else {
@@ -17,6 +20,35 @@ pub(super) fn corners(call: &Call) -> Option<Vec<Point>> {
         _ => None,
     };
     items.iter().map(point).collect()
+}
+
+/// Whether a call is a face whose corners are all known.
+pub(super) fn is_written(call: &Call) -> bool {
+    call.primitive == "polygon" && corners(call).is_some()
+}
+
+/// An attribute of a written face.
+pub(super) fn attribute(call: &Call, name: &str) -> Option<Expr> {
+    let face = Polygon::new(corners(call)?)?;
+    let edge = |number: usize| {
+        let arguments = [
+            ("face".to_owned(), Expr::Call(call.clone())),
+            ("number".to_owned(), Expr::Value(Value::Count(number as u64))),
+        ];
+        Expr::Call(Call {
+            primitive: "edge_of".to_owned(),
+            arguments: arguments.into(),
+        })
+    };
+    Some(match name {
+        "edges" => Expr::List((1..=face.vertices().len()).map(edge).collect()),
+        "base" => edge(1),
+        "apex" => Expr::Value(Value::Point(face.apex().0)),
+        "height" => Expr::Value(Value::Length(face.apex().1)),
+        "centre" => Expr::Value(Value::Point(face.centre())),
+        "normal" => Expr::Value(Value::Direction(face.normal())),
+        _ => return None,
+    })
 }
 
 /// What is wrong with a `polygon` call.
@@ -35,6 +67,9 @@ pub(super) fn check_polygon(call: &Call) -> Option<String> {
         return Some("these corners span no face: they lie on one line".into());
     };
     let (middle, extent) = middle_and_extent(face.vertices());
+    if face.area() < NEEDLE * extent * extent {
+        return Some("these corners span no face: they lie almost on one line".into());
+    }
     let off = |p: &Point| (p - middle).dot(&face.normal()).abs();
     let (number, worst) =
         (1..).zip(face.vertices()).fold(

@@ -11,11 +11,13 @@ use crate::lang::types::units::last_digit;
 use crate::primitives::{Type, printed_edge};
 use crate::rules::{Call, Expectation, Expected, Expr, Fact, FeatureId, Given, Library, Value};
 
-/// Most tests of a file.
-const MOST_FACTS: usize = 10_000;
+/// Most expectations of a file.
+const MOST_EXPECTED: usize = 10_000;
+/// Most places that a test gives.
+const MOST_PLACES: usize = 64;
 /// Most combinations of measured instances and edges that the rules of a fact's
 /// library have.
-const MOST_COMBINATIONS: f64 = 10_000.0;
+const MOST_COMBINATIONS: f64 = 1_000.0;
 
 /// How far places may lie apart where a test does not say, metres.
 const USUAL_DISTANCE: f64 = 1e-3;
@@ -27,8 +29,13 @@ const USUAL_SHARE: f64 = 1e-9;
 impl<'a> Lowering<'a> {
     /// The facts whose library is whole; of others something was said already.
     pub(super) fn facts(&mut self, facts: &'a [stated::Fact], libraries: &[LoweredLibrary]) -> Vec<Fact> {
-        if let Some(surplus) = facts.get(MOST_FACTS) {
-            let message = format!("a file of more than {MOST_FACTS} tests");
+        let before = facts.iter().scan(0, |n, fact| {
+            let before = *n;
+            *n += fact.expected.len().max(1);
+            Some((before, fact))
+        });
+        if let Some((_, surplus)) = before.last().filter(|(n, _)| *n > MOST_EXPECTED) {
+            let message = format!("the tests of this file expect more than {MOST_EXPECTED} things");
             let help = "put some of them into a file of their own";
             self.report(Diagnostic::new(Code::E0312, surplus.span, message).help(help));
             return Vec::new();
@@ -51,6 +58,14 @@ impl<'a> Lowering<'a> {
             .collect();
         let expected: Vec<_> = fact.expected.iter().map(|e| self.expectation(e, library)).collect();
         let given: Vec<(FeatureId, Given)> = given.into_iter().collect::<Option<_>>()?;
+        let places = given
+            .iter()
+            .filter(|(_, g)| matches!(g, Given::Face(_) | Given::Marker { .. }));
+        if places.count() > MOST_PLACES {
+            let message = format!("a test gives at most {MOST_PLACES} places");
+            self.report(Diagnostic::new(Code::E0312, fact.span, message));
+            return None;
+        }
         if let Some(library) = library
             && combinations(&given, library) > MOST_COMBINATIONS
         {
@@ -90,10 +105,7 @@ impl<'a> Lowering<'a> {
     }
 
     fn marker_pose(&mut self, place: &'a stated::Place) -> Option<Pose> {
-        let (at, facing) = (
-            self.value(&place.at, &Env::default()),
-            self.value(&place.facing, &Env::default()),
-        );
+        let (at, facing) = (self.constant(&place.at), self.constant(&place.facing));
         match (at?, facing?) {
             (Value::Point(at), Value::Direction(facing)) => Some(frame_facing(at, facing)),
             _ => None,
@@ -242,14 +254,16 @@ impl<'a> Lowering<'a> {
         Some(tolerance * (1.0 + USUAL_SHARE))
     }
 
-    fn scalar(&mut self, e: &'a typed::Expr) -> Option<f64> {
+    fn constant(&mut self, e: &'a typed::Expr) -> Option<Value> {
         self.value(e, &Env::default())
-            .as_ref()
-            .and_then(super::constants::scalar)
+    }
+
+    fn scalar(&mut self, e: &'a typed::Expr) -> Option<f64> {
+        self.constant(e).as_ref().and_then(super::constants::scalar)
     }
 
     fn whole(&mut self, e: &'a typed::Expr) -> Option<u64> {
-        match self.value(e, &Env::default())? {
+        match self.constant(e)? {
             Value::Count(n) => Some(n),
             _ => None,
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::suggest::{did_you_mean, one_of};
 use crate::lang::diagnostics::{Code, Diagnostic};
-use crate::lang::source::{FileId, SourceMap, Span};
+use crate::lang::source::{FileId, SourceFile, SourceMap, Span};
 use crate::lang::syntax::{self, tree};
 use crate::lang::world::World;
 use crate::lang::{EDITION, reading, stdlib};
@@ -147,16 +147,19 @@ impl Loader<'_> {
     }
 
     fn source(&mut self, key: &Key, import: Option<Span>) -> Option<FileId> {
-        let (display, path) = match key {
-            Key::Standard(name) => (format!("std/{name}.vpl"), format!("std/{name}.vpl")),
-            Key::User(path) => (format!("{}{path}", self.folder), path.clone()),
-        };
-        let bytes = match key {
-            Key::Standard(name) => Ok(stdlib::module(name).unwrap_or_default().as_bytes().to_vec()),
-            Key::User(_) => self.world.read(&display),
-        };
-        let read = reading::source(&display, &path, bytes, self.sources, import);
-        read.map_err(|found| self.found.push(*found)).ok()
+        match key {
+            Key::Standard(name) => {
+                let path = format!("std/{name}.vpl");
+                let text = stdlib::module(name).unwrap_or_default().to_owned();
+                Some(self.sources.add(SourceFile::new(path.clone(), path, text).shipped()))
+            }
+            Key::User(path) => {
+                let display = format!("{}{path}", self.folder);
+                let bytes = self.world.read(&display);
+                let read = reading::source(&display, path, bytes, self.sources, import);
+                read.map_err(|found| self.found.push(*found)).ok()
+            }
+        }
     }
 
     /// The tree of a file of this edition.

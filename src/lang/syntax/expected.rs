@@ -149,6 +149,7 @@ fn describe(expected: Rule) -> Option<(u8, String)> {
         | Rule::marked
         | Rule::prior => return Some((1, format!("`{debug}`"))),
         Rule::test | Rule::given | Rule::expect | Rule::within => return Some((1, format!("`{debug}`"))),
+        Rule::state => "a state like `detected`",
         Rule::supposed => "a feature and what is known of it",
         Rule::measured => "`=`",
         Rule::located | Rule::placed => "`at`",

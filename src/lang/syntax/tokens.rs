@@ -191,7 +191,7 @@ fn class(kind: Rule, parent: Option<Rule>, written: &str) -> Option<TokenClass> 
     Some(match kind {
         // The grammar lists keywords before punctuation, without a break.
         _ if (Rule::kw_vpl..Rule::comma).contains(&kind) => TokenClass::Keyword,
-        Rule::reserved => TokenClass::Keyword,
+        Rule::reserved | Rule::state => TokenClass::Keyword,
         Rule::name => return name_class(parent),
         Rule::number | Rule::integer | Rule::cell | Rule::edition => TokenClass::Number,
         Rule::unit => TokenClass::Unit,

@@ -49,13 +49,8 @@ impl<'a> Checker<'a> {
         }
         if let Some(name) = test.libraries.first() {
             let found = libraries.iter().position(|l| l.name == name.text);
-            if found.is_none() && !self.program.main().lost.contains(&name.text) {
-                self.unknown_item(
-                    "library",
-                    name,
-                    libraries.iter().map(|l| l.name.as_str()),
-                    self.program.main(),
-                );
+            if found.is_none() {
+                self.no_library(name, libraries);
             }
             return found;
         }
@@ -87,7 +82,7 @@ impl<'a> Checker<'a> {
                     let name = library.map_or("", |l| l.features[id.index()].name.as_str());
                     let out = Diagnostic::new(Code::E0702, supposed.span, format!("`{name}` is given twice"))
                         .related(first, "given first here");
-                    self.report(out.help("only a `many` feature has several instances, and none where it is absent"));
+                    self.report(out.help("say one thing of it; only a `many` feature has several places"));
                     continue;
                 }
                 all.push((id, given, supposed.span));
@@ -140,26 +135,20 @@ impl<'a> Checker<'a> {
     pub(super) fn fact_class(&mut self, name: &tree::Name, library: Option<&Library>) -> Option<usize> {
         let library = library?;
         let found = library.classes.iter().position(|c| c.name == name.text);
-        if found.is_none() && !self.program.main().lost.contains(&name.text) {
-            self.unknown_item(
-                "class",
-                name,
-                library.classes.iter().map(|c| c.name.as_str()),
-                self.program.main(),
-            );
+        if found.is_none() {
+            let known = library.classes.iter().map(|c| c.name.as_str());
+            self.unknown_item("class", name, known, self.program.main());
         }
         found
     }
 
     /// The features that a name stands for, a family all of them.
     pub(super) fn fact_features(&mut self, feature: &tree::FeatureRef, library: Option<&Library>) -> Vec<FeatureId> {
-        library
-            .and_then(|l| self.members_of(feature, self.inside(l)))
-            .unwrap_or_default()
+        let ids = library.and_then(|l| self.members_of(feature, self.library_scope(l)));
+        ids.unwrap_or_default()
     }
 
-    /// The scope of a library's own names.
-    fn inside<'l>(&self, library: &'l Library) -> Scope<'l>
+    fn library_scope<'l>(&self, library: &'l Library) -> Scope<'l>
     where
         'a: 'l,
     {
@@ -176,9 +165,10 @@ impl<'a> Checker<'a> {
         library: Option<&Library>,
         due: Option<FeatureKind>,
     ) -> Option<FeatureId> {
-        let families = &library?.families;
+        let library = library?;
+        let (families, scope) = (&library.families, self.library_scope(library));
         let (name, index) = (&feature.name, feature.index.as_ref());
-        let used = feature_use(self, name, index, feature.span, self.inside(library?))?;
+        let used = feature_use(self, name, index, feature.span, scope)?;
         let family = families.by_name.get(&name.text)?;
         if let Some(due) = due.filter(|due| *due != family.kind) {
             let message = format!("`{}` is a {}, and this is the place of a {due}", name.text, family.kind);

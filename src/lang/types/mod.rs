@@ -227,6 +227,13 @@ fn scene_name(item: &tree::Item) -> Option<&tree::Name> {
     }
 }
 
+fn test_name(item: &tree::Item) -> Option<&tree::Name> {
+    match item {
+        tree::Item::Test(test) => Some(&test.name),
+        _ => None,
+    }
+}
+
 /// The libraries that an item may bring into scope.
 fn names_of(item: &tree::Item) -> &[tree::Name] {
     match item {
@@ -239,11 +246,4 @@ fn names_of(item: &tree::Item) -> &[tree::Name] {
 /// What is shared with nobody any more.
 fn owned<T: Clone>(shared: Rc<T>) -> T {
     Rc::try_unwrap(shared).unwrap_or_else(|shared| (*shared).clone())
-}
-
-fn test_name(item: &tree::Item) -> Option<&tree::Name> {
-    match item {
-        tree::Item::Test(test) => Some(&test.name),
-        _ => None,
-    }
 }

@@ -217,6 +217,19 @@ impl Chosen {
         } else if let (Some(share), Some(least)) = (best.share, self.overlap) {
             text += &format!("  {}\n", overlap(share, least));
         }
+        for other in self
+            .next
+            .runners_up
+            .iter()
+            .filter(|s| s.terms.overlap == 0 && !self.next.relaxed)
+        {
+            let share = other.share.map_or(String::new(), |s| format!(" of {}", share(s)));
+            let _ = writeln!(
+                text,
+                "  ✗ #{} would gain more, but its overlap{share} is too small",
+                other.view
+            );
+        }
         if let Some(tie) = self.tie() {
             let _ = writeln!(text, "  {tie}");
         }
