@@ -1,15 +1,13 @@
 //! `vpl fmt`: programs laid out in their one form. A file is replaced as a whole or
 //! not at all.
 
-use std::fs::{self, OpenOptions};
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::io;
 use std::time::Duration;
 
 use clap::Args;
 use similar::TextDiff;
 
-use super::files::{Disk, STDIN, human};
+use super::files::{Disk, STDIN, human, replace};
 use super::{Failure, Outcome, print, report};
 use crate::lang::{self, Formatted, SourceFile, SourceMap, render};
 
@@ -73,9 +71,7 @@ fn one(path: &str, check: bool) -> Result<bool, Failure> {
     }
     match path {
         STDIN => print(&formatted.text)?,
-        _ if changed => {
-            replace(Path::new(path), &formatted.text).map_err(|error| Failure::Write(format!("`{path}`"), error))?
-        }
+        _ if changed => replace(path, &formatted.text)?,
         _ => {}
     }
     Ok(true)
@@ -101,33 +97,4 @@ fn diff(path: &str, old: &str, new: &str) -> String {
         .timeout(Duration::from_secs(5))
         .diff_lines(old, new);
     diff.unified_diff().header(path, path).to_string()
-}
-
-/// Puts a text in a file's place: written beside it in full, then renamed.
-fn replace(path: &Path, text: &str) -> io::Result<()> {
-    // Behind a link it is the file that is replaced.
-    let target = fs::canonicalize(path)?;
-    let metadata = fs::metadata(&target)?;
-    if !metadata.is_file() {
-        return Err(io::Error::other("it is no regular file"));
-    }
-    if metadata.permissions().readonly() {
-        return Err(io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only"));
-    }
-    let beside = beside(&target);
-    let mut file = OpenOptions::new().write(true).create_new(true).open(&beside)?;
-    let written = file
-        .write_all(text.as_bytes())
-        .and_then(|()| file.set_permissions(metadata.permissions()))
-        .and_then(|()| file.sync_all())
-        .and_then(|()| fs::rename(&beside, &target));
-    if written.is_err() {
-        let _ = fs::remove_file(&beside);
-    }
-    written
-}
-
-fn beside(target: &Path) -> PathBuf {
-    let name = target.file_name().unwrap_or_default().to_string_lossy();
-    target.with_file_name(format!(".{name}.{}.tmp", std::process::id()))
 }

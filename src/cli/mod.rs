@@ -68,7 +68,7 @@ pub(crate) enum Failure {
     #[error("error[{code}]: {0}", code = Code::E0603)]
     Run(String),
     /// A layout would not have been the same program.
-    #[error("error[{code}]: {0} was left as it is: laid out it would be another program, which is a mistake of vpl", code = Code::E0604)]
+    #[error("error[{code}]: {0} is left as it is: laid out it would be another program", code = Code::E0604)]
     Layout(String),
     /// A run log cannot be read.
     #[error("error[{code}]: {0} cannot be read: {1}", code = Code::E0711)]

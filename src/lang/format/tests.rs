@@ -100,7 +100,7 @@ fn columns() {
 #[test]
 fn brackets() {
     insta::assert_snapshot!(laid_out(
-        "vpl 1\n\nlet joined = f(a,\n   b)\nlet kept = f(\na, b,\n\n\nc)\nlet long = f(first: [1 mm, 2 mm, 3 mm, 4 mm], second: g(1, 2, 3), third: 300 mm, fourth: 400 mm, fifth: 500 mm)\nlet hugging = f(a, b: [\n1,2\n])\nlet both = f([\n1], [\n2\n])\nlet sum = (1 mm +\n 2 mm)\nlet else_ = f(\n a\n else b\n // last\n)\nlet next =\n  f(1)\nlet chain = 1 mm +\n2 mm\n\nlibrary l {\n  class long_class { first_feature, second_feature, third_feature, fourth_feature, fifth_feature, sixth }\n  class broken {\n a\nb }\n  class mixed { a,\nb // b\n, c }\n}\ntask t {\n  thresholds { near: 10 mm, absent: 99 %, confidence: 99 % } ; limit 20 views\n  sensor_model {\n hit: 70 %; miss: 40 % }\n}\n"
+        "vpl 1\n\nlet joined = f(a,\n   b)\nlet kept = f(\na, b,\n\n\nc)\nlet long = f(first: [1 mm, 2 mm, 3 mm, 4 mm], second: g(1, 2, 3), third: 300 mm, fourth: 400 mm, fifth: 500 mm)\nlet hugging = f(a, b: [\n1,2\n])\nlet both = f([\n1], [\n2\n])\nlet sum = (1 mm +\n 2 mm)\nlet else_ = f(\n a\n else b\n // last\n)\nlet only = polygon([[100 mm, 100 mm, 100 mm], [-100 mm, 100 mm, 100 mm], [-100 mm, 100 mm, 400 mm]]) + f([1])\nlet next =\n  f(1)\nlet chain = 1 mm +\n2 mm\n\nlibrary l {\n  class long_class { first_feature, second_feature, third_feature, fourth_feature, fifth_feature, sixth }\n  class broken {\n a\nb }\n  class mixed { a,\nb // b\n, c }\n}\ntask t {\n  thresholds { near: 10 mm, absent: 99 %, confidence: 99 % } ; limit 20 views\n  sensor_model {\n hit: 70 %; miss: 40 % }\n}\n"
     ));
 }
 

@@ -155,18 +155,16 @@ impl Loader<'_> {
     }
 
     fn source(&mut self, key: &Key, import: Option<Span>) -> Option<FileId> {
-        let (display, path) = match key {
-            Key::Standard(name) => (format!("std/{name}.vpl"), format!("std/{name}.vpl")),
-            Key::User(path) => (format!("{}{path}", self.folder), path.clone()),
-        };
         match key {
             Key::Standard(name) => {
+                let path = format!("std/{name}.vpl");
                 let text = stdlib::module(name).unwrap_or_default().to_owned();
-                Some(self.sources.add(SourceFile::new(display, path, text).shipped()))
+                Some(self.sources.add(SourceFile::new(path.clone(), path, text).shipped()))
             }
-            Key::User(_) => {
+            Key::User(path) => {
+                let display = format!("{}{path}", self.folder);
                 let bytes = self.world.read(&display);
-                let read = reading::source(&display, &path, bytes, self.sources, import);
+                let read = reading::source(&display, path, bytes, self.sources, import);
                 read.map_err(|found| self.found.push(*found)).ok()
             }
         }
