@@ -63,7 +63,11 @@ local function run()
 
   say('\n-- hover on `hull` of the first object')
   local hover = ask('textDocument/hover', 'tanks.hull', 6)
-  say('  ' .. hover.contents.value:gsub('\n', '\n  '))
+  for _, told in ipairs(vim.split(hover.contents.value, '\n')) do
+    if told ~= '' and not vim.startswith(told, '```') then
+      say('  ' .. told)
+    end
+  end
   expect('42 rules are told', hover.contents.value:find('42 rules') ~= nil)
 
   say('\n-- definition of `large_qr`')
