@@ -4,6 +4,7 @@ use std::io;
 
 use clap::Args;
 
+use super::files::Disk;
 use super::{Failure, Outcome};
 use crate::lsp::serve;
 
@@ -18,7 +19,7 @@ pub(crate) struct Lsp {
 
 pub(crate) fn run(options: &Lsp) -> Result<Outcome, Failure> {
     let Lsp { stdio: _ } = options;
-    let agreed =
-        serve(io::stdin(), io::stdout().lock()).map_err(|error| Failure::Write("standard output".into(), error))?;
+    let agreed = serve(io::stdin(), io::stdout().lock(), Box::new(Disk))
+        .map_err(|error| Failure::Write("standard output".into(), error))?;
     Ok(if agreed { Outcome::Done } else { Outcome::WrongInput })
 }

@@ -6,7 +6,6 @@ use gen_lsp_types::{TextDocumentContentChangeEvent as Change, Uri};
 
 use super::paths;
 use super::position::{Encoding, Positions};
-use crate::cli::Disk;
 use crate::lang::{MOST_BYTES, ReadFailure, World, normal};
 
 /// A document that is open.
@@ -18,9 +17,11 @@ pub(super) struct Document {
     pub text: String,
 }
 
-/// The documents that are open, by path.
-#[derive(Debug, Default)]
-pub(super) struct Documents(pub BTreeMap<String, Document>);
+/// The documents that are open, by path, before the files behind them.
+pub(super) struct Documents {
+    pub open: BTreeMap<String, Document>,
+    pub disk: Box<dyn World>,
+}
 
 impl Document {
     /// Takes changes over, each in the text that the one before it left.
@@ -40,17 +41,17 @@ impl Document {
 impl Documents {
     /// The address of a file: as its editor writes it, where it is open.
     pub fn uri(&self, path: &str) -> Uri {
-        let open = self.0.get(path).map(|d| d.uri.clone());
+        let open = self.open.get(path).map(|d| d.uri.clone());
         open.unwrap_or_else(|| paths::uri(path))
     }
 }
 
 impl World for Documents {
     fn read(&self, path: &str) -> Result<Vec<u8>, ReadFailure> {
-        match self.0.get(&normal(path)) {
+        match self.open.get(&normal(path)) {
             Some(open) if open.text.len() > MOST_BYTES => Err(ReadFailure::TooLarge),
             Some(open) => Ok(open.text.as_bytes().to_vec()),
-            None => Disk.read(path),
+            None => self.disk.read(path),
         }
     }
 }

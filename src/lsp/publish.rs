@@ -40,7 +40,7 @@ impl Published {
         diagnostics.sort_by_key(|d| d.range.start);
         PublishDiagnosticsParams {
             uri: workspace.documents.uri(file),
-            version: workspace.documents.0.get(file).map(|d| d.version),
+            version: workspace.documents.open.get(file).map(|d| d.version),
             diagnostics,
         }
     }

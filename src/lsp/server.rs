@@ -17,16 +17,17 @@ use super::paths;
 use super::publish::Published;
 use super::requests::{Refused, answer, written};
 use super::workspace::Workspace;
+use crate::lang::World;
 
 /// Messages that are read ahead, so that a request can be taken back before its turn.
 const READ_AHEAD: usize = 1_024;
 
 /// Serves one client until it leaves; says whether it did so as agreed: `shutdown`, then
-/// `exit`.
+/// `exit`. Files that are not open are read from `disk`.
 ///
 /// # Errors
 /// The output cannot be written.
-pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> io::Result<bool> {
+pub fn serve(input: impl Read + Send + 'static, output: impl Write, disk: Box<dyn World>) -> io::Result<bool> {
     let (sender, receiver) = sync_channel(READ_AHEAD);
     thread::spawn(move || {
         let mut input = BufReader::new(input);
@@ -39,7 +40,7 @@ pub fn serve(input: impl Read + Send + 'static, output: impl Write) -> io::Resul
     let mut server = Server {
         output,
         waiting: VecDeque::new(),
-        state: State::New,
+        state: State::New(disk),
     };
     server.run(&receiver)
 }
@@ -51,7 +52,8 @@ struct Server<W> {
 }
 
 enum State {
-    New,
+    /// With the files that documents are on.
+    New(Box<dyn World>),
     Serving(Box<Serving>),
     /// `shutdown` came.
     Done,
@@ -135,17 +137,8 @@ impl<W: Write> Server<W> {
 
     fn request(&mut self, request: Request) -> Result<Value, Refused> {
         match (&mut self.state, request.method.as_str()) {
-            (State::New, "initialize") => {
-                let asked = Greeting::read(&request.params);
-                let answer = written(greeting(&asked));
-                self.state = State::Serving(Box::new(Serving {
-                    workspace: Workspace::new(asked.encoding, asked.roots.clone()),
-                    greeting: asked,
-                    published: Published::default(),
-                }));
-                answer
-            }
-            (State::New, _) => Err(Refused::new(
+            (State::New(_), "initialize") => self.begin(&request.params),
+            (State::New(_), _) => Err(Refused::new(
                 ErrorCode::ServerNotInitialized,
                 "`initialize` comes first",
             )),
@@ -159,6 +152,20 @@ impl<W: Write> Server<W> {
                 answer(&mut serving.workspace, &serving.greeting, method, &request.params)
             }
         }
+    }
+
+    fn begin(&mut self, params: &Value) -> Result<Value, Refused> {
+        let asked = Greeting::read(params);
+        let answer = written(greeting(&asked));
+        let state = std::mem::replace(&mut self.state, State::Done);
+        if let State::New(disk) = state {
+            self.state = State::Serving(Box::new(Serving {
+                workspace: Workspace::new(disk, asked.encoding, asked.roots.clone()),
+                greeting: asked,
+                published: Published::default(),
+            }));
+        }
+        answer
     }
 
     fn notification(&mut self, notification: Notification) {
@@ -213,13 +220,13 @@ impl Serving {
             version: document.version,
             text: document.text,
         };
-        self.workspace.documents.0.insert(path, open);
+        self.workspace.documents.open.insert(path, open);
         self.workspace.all_changed();
     }
 
     fn changed(&mut self, params: DidChangeTextDocumentParams) {
         let path = paths::path(&params.text_document.text_document_identifier.uri);
-        let Some(document) = self.workspace.documents.0.get_mut(&path) else {
+        let Some(document) = self.workspace.documents.open.get_mut(&path) else {
             return;
         };
         document.version = params.text_document.version;
@@ -229,7 +236,7 @@ impl Serving {
 
     fn closed(&mut self, params: &DidCloseTextDocumentParams) {
         let path = paths::path(&params.text_document.uri);
-        if self.workspace.documents.0.remove(&path).is_some() {
+        if self.workspace.documents.open.remove(&path).is_some() {
             self.workspace.all_changed();
             self.workspace.unpublished.insert(path);
         }
@@ -252,6 +259,7 @@ fn log(text: &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lang::Memory;
 
     fn request(id: i32, method: &str) -> Message {
         Request::new(id.into(), method.to_owned(), json!({})).into()
@@ -263,7 +271,7 @@ mod tests {
         let mut server = Server {
             output: Vec::new(),
             waiting: [cancel.into(), request(3, "no/such")].into(),
-            state: State::New,
+            state: State::New(Box::new(Memory::default())),
         };
         server.message(request(1, "initialize")).unwrap();
         server.message(request(2, "no/such")).unwrap();

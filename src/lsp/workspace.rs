@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::documents::Documents;
 use super::position::{Encoding, Positions};
 use crate::ide::Snapshot;
-use crate::lang::{SourceFile, Span, normal};
+use crate::lang::{SourceFile, Span, World, normal};
 
 /// Most files that are looked at for uses of a name.
 const MOST_FILES: usize = 2_000;
@@ -15,7 +15,6 @@ const MOST_FILES: usize = 2_000;
 const DEEPEST: usize = 12;
 
 /// Everything that the server knows.
-#[derive(Debug)]
 pub(super) struct Workspace {
     pub documents: Documents,
     pub encoding: Encoding,
@@ -27,9 +26,12 @@ pub(super) struct Workspace {
 }
 
 impl Workspace {
-    pub fn new(encoding: Encoding, roots: Vec<String>) -> Self {
+    pub fn new(disk: Box<dyn World>, encoding: Encoding, roots: Vec<String>) -> Self {
         Self {
-            documents: Documents::default(),
+            documents: Documents {
+                open: BTreeMap::new(),
+                disk,
+            },
             encoding,
             roots,
             snapshots: BTreeMap::new(),
@@ -39,7 +41,7 @@ impl Workspace {
 
     /// The program of an open file, looked at again where it is stale.
     pub fn snapshot(&mut self, path: &str) -> Option<&Snapshot> {
-        if !self.documents.0.contains_key(path) {
+        if !self.documents.open.contains_key(path) {
             return None;
         }
         if !self.snapshots.contains_key(path) {
@@ -72,7 +74,7 @@ impl Workspace {
             self.snapshots.remove(&main);
             self.unpublished.insert(main);
         }
-        if self.documents.0.contains_key(path) {
+        if self.documents.open.contains_key(path) {
             self.unpublished.insert(path.to_owned());
         }
     }
@@ -80,7 +82,7 @@ impl Workspace {
     /// Files came or went: every import may lead elsewhere.
     pub fn all_changed(&mut self) {
         self.snapshots.clear();
-        self.unpublished.extend(self.documents.0.keys().cloned());
+        self.unpublished.extend(self.documents.open.keys().cloned());
     }
 
     /// The lines of a file.
@@ -98,7 +100,7 @@ impl Workspace {
     /// `word` and import files.
     pub fn programs(&mut self, path: &str, word: &str) -> Vec<Snapshot> {
         let mut mains = vec![path.to_owned()];
-        mains.extend(self.documents.0.keys().filter(|p| *p != path).cloned());
+        mains.extend(self.documents.open.keys().filter(|p| *p != path).cloned());
         for file in self.roots.iter().flat_map(|root| files(root)) {
             let importing = |text: &str| text.contains(word) && text.contains("use \"");
             if !mains.contains(&file) && fs::read_to_string(&file).is_ok_and(|text| importing(&text)) {
