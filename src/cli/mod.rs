@@ -6,6 +6,7 @@ mod completions;
 mod explain;
 mod files;
 mod fmt;
+mod lsp;
 mod new;
 mod plan;
 mod test;
@@ -36,6 +37,7 @@ enum Verb {
     Explain(explain::Explain),
     Compile(compile::Compile),
     Fmt(fmt::Fmt),
+    Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
     Test(test::Test),
     Why(why::Why),
@@ -107,6 +109,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Explain(explain) => explain::run(&explain),
         Verb::Compile(compile) => compile::run(&compile),
         Verb::Fmt(fmt) => fmt::run(&fmt),
+        Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
         Verb::Test(test) => test::run(&test),
         Verb::Why(why) => why::run(&why),
