@@ -23,7 +23,7 @@ pub use cameras::camera;
 pub use detectors::{Envelope, ImageKind, envelope, printed_edge};
 pub use faces::MOST_CORNERS;
 pub use predictors::{Strength, strength};
-pub use reference::reference;
+pub use reference::{reference, signature, written};
 pub use views::{MOST_VIEWS, poses};
 
 use crate::rules::{FeatureKind, Value};

@@ -75,6 +75,24 @@ fn every_fix_applied_alone_removes_its_diagnostic() {
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
+/// Who is told another word can have it written.
+#[test]
+fn every_did_you_mean_comes_with_its_fix() {
+    for folder in WRONG {
+        let world = Folder(folder.into());
+        for name in programs(folder) {
+            for d in lang::compile(&name, &world).diagnostics {
+                let asked = d.help.as_ref().is_some_and(|help| help.starts_with("did you mean"));
+                assert!(
+                    !asked || !d.fixes.is_empty(),
+                    "{folder}/{name}: `{}` has no fix",
+                    d.message
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn repair_never_makes_more_errors_and_ends() {
     for folder in WRONG {

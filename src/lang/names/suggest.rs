@@ -99,11 +99,6 @@ pub(crate) fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
         .map(|(_, c)| c)
 }
 
-/// Did you mean, as advice.
-pub(in crate::lang) fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    closest(word, candidates).map(|c| format!("did you mean `{c}`?"))
-}
-
 /// `a, b or c` in backticks, cut short where it is long.
 pub(in crate::lang) fn one_of<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     const MOST: usize = 14;

@@ -5,7 +5,7 @@
 //! becomes the tree ([`build`]), so that one run finds many mistakes.
 
 #[cfg(test)]
-mod agreement;
+pub(super) mod agreement;
 mod block;
 mod build;
 mod expected;
@@ -63,15 +63,15 @@ fn limit_calls() {
 }
 
 /// Whether the strict entry accepts a text.
-#[cfg(test)]
-pub(super) fn strictly_accepts(text: &str) -> bool {
+#[cfg(any(test, fuzzing))]
+pub fn strictly_accepts(text: &str) -> bool {
     limit_calls();
     guard::refuse(FileId(0), text).is_none() && Grammar::parse(Rule::file, text).is_ok()
 }
 
 /// Whether the tolerant entry finds nothing bad in a text.
-#[cfg(test)]
-pub(super) fn tolerantly_accepts(text: &str) -> bool {
+#[cfg(any(test, fuzzing))]
+pub fn tolerantly_accepts(text: &str) -> bool {
     limit_calls();
     let pairs = Grammar::parse(Rule::tolerant_file, text);
     guard::refuse(FileId(0), text).is_none()

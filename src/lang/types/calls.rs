@@ -8,6 +8,7 @@ use super::scope::Scope;
 use super::typed::{Expr, ExprKind};
 use super::{Checker, units};
 use crate::lang::diagnostics::{Code, Diagnostic, Edit, Label};
+use crate::lang::index::Entity;
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::names::{DefinitionId, standard_home};
 use crate::lang::source::Span;
@@ -21,7 +22,10 @@ impl Checker<'_> {
             Some(Some(id)) => self.definition_call(*id, call, span, scope),
             Some(None) => self.arguments_alone(call, scope),
             None => match primitives::find(name) {
-                Some(primitive) => self.primitive_call(primitive, call, span, scope),
+                Some(primitive) => {
+                    self.names.uses(call.name.span, Entity::Primitive(primitive.name));
+                    self.primitive_call(primitive, call, span, scope)
+                }
                 None => {
                     self.unknown_callee(&call.name, scope);
                     self.arguments_alone(call, scope)
@@ -55,6 +59,7 @@ impl Checker<'_> {
                 ty: Some(p.ty),
                 optional: !matches!(p.default, Default::Required),
                 span,
+                entity: Entity::Argument(primitive.name, p.name),
             })
             .collect();
         let given = self.arguments(&wanted, call, scope)?;
@@ -77,6 +82,7 @@ impl Checker<'_> {
         span: Span,
         scope: Scope<'_>,
     ) -> Option<Expr> {
+        self.names.uses(call.name.span, self.entity(id));
         let ty = self.definition(id);
         let signature = self.signatures[id.0].clone();
         let given = self.arguments(&signature, call, scope)?;
@@ -139,6 +145,9 @@ impl Checker<'_> {
 
     fn named_slot(&mut self, wanted: &[Slot], name: &tree::Name, callee: &str, scope: Scope<'_>) -> Option<usize> {
         let slot = wanted.iter().position(|w| w.name == name.text);
+        if let Some(slot) = slot {
+            self.names.uses(name.span, wanted[slot].entity);
+        }
         if slot.is_some() || scope.lost(callee) {
             return slot;
         }

@@ -4,6 +4,7 @@ use super::scope::Scope;
 use super::typed::{Expr, ExprKind, TextPart};
 use super::{Checker, units};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Entity;
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree;
@@ -123,8 +124,12 @@ impl Checker<'_> {
                 None => constant(Value::Number(q.value), Type::Number, span),
             });
         };
-        if let Some((ty, si)) = units::find(&unit.text) {
+        if let Some((word, ty, si)) = units::find(&unit.text) {
+            self.names.uses(unit.span, Entity::Unit(word));
             return Some(constant(units::value(ty, q.value, si), ty, span));
+        }
+        if let Some(noun) = units::NOUNS.iter().find(|noun| **noun == unit.text) {
+            self.names.uses(unit.span, Entity::Unit(noun));
         }
         match q.whole {
             Some(n) if units::NOUNS.contains(&unit.text.as_str()) => Some(constant(Value::Count(n), Type::Count, span)),
@@ -175,6 +180,8 @@ impl Checker<'_> {
             None => false,
         };
         if index || parameter {
+            self.names.uses_local(name);
+            self.uses_parameter(name, scope);
             return Some(TextPart::Hole(name.text.clone()));
         }
         let known: Vec<&str> = scope

@@ -6,6 +6,7 @@ use super::forms::BACKDROPS;
 use super::scope::Scope;
 use super::typed::{Expr, Library, Marked, Object, Scene};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Kind;
 use crate::lang::syntax::tree;
 use crate::primitives::Type;
 
@@ -108,6 +109,7 @@ impl<'a> Checker<'a> {
             return None;
         };
         let here = &libraries[library];
+        self.uses_listed(&marked.library);
         let main = self.program.main();
         let layout = here.layouts.iter().position(|l| l.name == marked.layout.text);
         if layout.is_none() {
@@ -118,6 +120,10 @@ impl<'a> Checker<'a> {
                 main,
             );
         }
+        if let Some(layout) = layout {
+            self.names
+                .member(Kind::Layout, here.layouts[layout].span, &marked.layout);
+        }
         let class = here.classes.iter().position(|c| c.name == marked.class.text);
         if class.is_none() {
             self.unknown_item(
@@ -126,6 +132,9 @@ impl<'a> Checker<'a> {
                 here.classes.iter().map(|c| c.name.as_str()),
                 main,
             );
+        }
+        if let Some(class) = class {
+            self.names.member(Kind::Class, here.classes[class].span, &marked.class);
         }
         Some(Marked {
             library,
