@@ -37,6 +37,12 @@ pub struct Compilation {
 }
 
 impl Compilation {
+    /// The same without notes: what a verb that goes on with the program has to say.
+    pub fn without_notes(mut self) -> Self {
+        self.diagnostics.retain(|d| d.severity != Severity::Note);
+        self
+    }
+
     /// Whether some diagnostic is an error.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(|d| d.severity == Severity::Error)
@@ -57,6 +63,10 @@ pub fn compile(path: &str, world: &dyn World) -> Compilation {
     });
     diagnostics::in_order(&mut diagnostics);
     let failed = diagnostics.iter().any(|d| d.severity == Severity::Error);
+    if failed {
+        // What a task costs is of interest once it is one.
+        diagnostics.retain(|d| d.severity != Severity::Note);
+    }
     Compilation {
         rules: rules.filter(|_| !failed),
         diagnostics,

@@ -71,7 +71,7 @@ fn without_a_budget_there_are_bounds() {
         panic!("a hundred steps do not solve twelve tanks");
     };
     let (exact, entropy) = (44.0 / 12.0, 12_f64.log2());
-    assert!((least - entropy).abs() < 1e-9 && most.unwrap() >= exact);
+    assert!((least - entropy).abs() < 1e-9 && most.unwrap() > exact - 1e-9);
 
     let hurried = tanks.certificate(0, &mut Budget(400)).unwrap();
     assert!(hurried.at_least <= certificate(&tanks, 0).outcomes.len());

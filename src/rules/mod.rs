@@ -15,4 +15,6 @@ pub use artefact::{FORMAT, Place, ReadError, RuleSet, Source};
 pub use expr::{BadArgument, Call, Colour, Expr, Value};
 pub use library::{Class, Each, Feature, FeatureId, FeatureKind, Library, Presence, Rule};
 pub use scene::{Backdrop, Marker, Scene, SceneObject};
+#[cfg(test)]
+pub(crate) use task::BYTES_PER_VOXEL;
 pub use task::{Goal, Inspected, SensorModel, Space, Task, Thresholds};

@@ -1,5 +1,5 @@
 //! Every code with a title: E01 syntax and files, E02 names, E03 types and
-//! units, E04 task checks, E05 scenes, W04 warnings about tasks.
+//! units, E04 task checks, E05 scenes, W04 warnings about tasks, N04 notes.
 
 use std::fmt;
 
@@ -67,10 +67,15 @@ codes! {
     E0403 "views that cannot measure"
     E0404 "a map that does not fit in memory"
     E0405 "a library without a beginning"
+    E0406 "a confidence that no class can reach"
+    E0407 "rules that contradict each other"
+    E0408 "features that one detector cannot tell apart"
+    E0409 "prints that lie over each other"
     E0501 "a backdrop that does not enclose the views"
     E0502 "a marker without a place or a print"
     E0503 "a view inside an object"
     E0504 "an object that cannot be shown"
+    E0505 "an object outside the space"
     W0401 "an attribute that has no value at first"
     W0402 "a feature that no class has"
     W0403 "a feature that every class has"
@@ -79,6 +84,19 @@ codes! {
     W0406 "predictions that nothing starts"
     W0407 "a marker too small to decode"
     W0408 "views of which some cannot measure"
+    W0409 "a class that can never be certain"
+    W0410 "a class that is certain before anything is seen"
+    W0411 "a rule that says what another says"
+    W0412 "a layout that leaves members of a family out"
+    W0413 "a place where its own detector finds nothing"
+    W0414 "a `near` that spans the space"
+    W0415 "an object that is marked as a class of another name"
+    W0416 "a mark without a print"
+    W0417 "a layout that the space cannot hold"
+    W0418 "a map of many gigabytes"
+    N0401 "what recognition costs"
+    N0402 "objects that no class is named after"
+    N0403 "objects that reach out of the space"
 }
 
 impl Code {
@@ -91,8 +109,10 @@ impl Code {
     pub fn severity(self) -> Severity {
         if self < Self::W0401 {
             Severity::Error
-        } else {
+        } else if self < Self::N0401 {
             Severity::Warning
+        } else {
+            Severity::Note
         }
     }
 }

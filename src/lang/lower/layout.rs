@@ -6,27 +6,43 @@ use super::Lowering;
 use super::library::MOST_RULES;
 use crate::geometry::{Pose, frame_facing};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::source::Span;
 use crate::lang::types::typed;
 use crate::primitives::printed_edge;
 use crate::rules::{Call, Expr, FeatureId, Library, Rule, Value};
 
+/// A layout with its places, in the order of the features.
+pub(in crate::lang) struct Placed {
+    /// Its name.
+    pub name: String,
+    /// Its line.
+    pub span: Span,
+    /// `frame_from_place` of each feature, and where that is written.
+    pub places: Vec<(FeatureId, Pose, Span)>,
+}
+
 impl<'a> Lowering<'a> {
     /// Adds a rule for every ordered pair of places, in the order of the features.
     /// Says which definite rules are missing where the library is `whole` otherwise.
-    pub(super) fn layout(&mut self, layout: &'a typed::Layout, out: &mut Library, whole: bool) {
+    pub(super) fn layout(&mut self, layout: &'a typed::Layout, out: &mut Library, whole: bool) -> Option<Placed> {
         let n = layout.places.len();
         if n.saturating_mul(n) + out.rules.len() > MOST_RULES {
-            self.too_far::<()>(layout.span);
-            return;
+            return self.too_far(layout.span);
         }
-        let places: Vec<Option<(FeatureId, Pose)>> = layout.places.iter().map(|p| self.place_pose(p)).collect();
-        let Some(mut places) = places.into_iter().collect::<Option<Vec<_>>>() else {
-            return;
-        };
-        places.sort_by_key(|(feature, _)| *feature);
+        let places: Vec<Option<_>> = layout
+            .places
+            .iter()
+            .map(|p| self.place_pose(p).map(|(feature, pose)| (feature, pose, p.span)))
+            .collect();
+        let mut places = places.into_iter().collect::<Option<Vec<_>>>()?;
+        places.sort_by_key(|(feature, _, _)| *feature);
         let definite = self.definite_rules(layout, out, whole);
-        for (a, frame_from_a) in &places {
-            for (b, frame_from_b) in places.iter().filter(|(b, _)| a != b) {
+        let edges: BTreeMap<FeatureId, f64> = definite
+            .iter()
+            .filter_map(|(feature, rule)| Some((*feature, printed_edge(&rule.detect).ok()?)))
+            .collect();
+        for (a, frame_from_a, _) in &places {
+            for (b, frame_from_b, _) in places.iter().filter(|(b, _, _)| a != b) {
                 let Some(rule) = definite.get(b) else { continue };
                 let a_from_b = frame_from_a.inv_mul(frame_from_b);
                 out.rules.push(Rule {
@@ -36,11 +52,16 @@ impl<'a> Lowering<'a> {
                     each: Vec::new(),
                     detect: rule.detect.clone(),
                     measure: rule.measure.clone(),
-                    predict: Some(rigid_marker(*a, a_from_b, rule)),
+                    predict: Some(rigid_marker(*a, a_from_b, edges.get(b))),
                     place: self.place(layout.span),
                 });
             }
         }
+        Some(Placed {
+            name: layout.name.clone(),
+            span: layout.span,
+            places,
+        })
     }
 
     /// `frame_from_place`: the frame that the layout is written in is the object's.
@@ -77,7 +98,7 @@ impl<'a> Lowering<'a> {
     }
 }
 
-fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, rule: &Rule) -> Call {
+fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, edge: Option<&f64>) -> Call {
     let pose = Expr::Attribute {
         feature: antecedent,
         name: "pose".into(),
@@ -89,8 +110,8 @@ fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, rule: &
             Expr::Value(Value::Pose(antecedent_from_consequent)),
         ),
     ]);
-    if let Ok(edge) = printed_edge(&rule.detect) {
-        arguments.insert("size".to_owned(), Expr::Value(Value::Length(edge)));
+    if let Some(edge) = edge {
+        arguments.insert("size".to_owned(), Expr::Value(Value::Length(*edge)));
     }
     Call {
         primitive: "rigid_marker".into(),

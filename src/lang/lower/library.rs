@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Lowering;
 use super::expand::Env;
+use super::layout::Placed;
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::Span;
 use crate::lang::types::typed::{self, FeatureUse};
@@ -14,7 +15,8 @@ use crate::rules::{Call, Class, Each, Feature, FeatureId, Library, Presence, Rul
 pub(super) const MOST_RULES: usize = 100_000;
 
 impl<'a> Lowering<'a> {
-    pub(super) fn library(&mut self, library: &'a typed::Library) -> Library {
+    /// A library, and where its layouts place its features.
+    pub(super) fn library(&mut self, library: &'a typed::Library) -> (Library, Vec<Placed>) {
         let before = self.found.len();
         let mut out = Library {
             name: library.name.clone(),
@@ -28,10 +30,11 @@ impl<'a> Lowering<'a> {
         }
         // A rule that is wrong is not missing, too.
         let whole = library.whole && self.found.len() == before;
-        for layout in &library.layouts {
-            self.layout(layout, &mut out, whole);
-        }
-        out
+        let layouts = library.layouts.iter();
+        let placed = layouts
+            .filter_map(|layout| self.layout(layout, &mut out, whole))
+            .collect();
+        (out, placed)
     }
 
     fn feature(&self, feature: &typed::Feature) -> Feature {

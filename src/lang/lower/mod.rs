@@ -12,6 +12,7 @@ mod ranges;
 mod scene;
 mod task;
 
+pub(super) use layout::Placed;
 pub(super) use task::TaskSpans;
 
 use super::diagnostics::Diagnostic;
@@ -25,10 +26,28 @@ pub(super) struct Lowered {
     pub rules: RuleSet,
     /// By library: whether all of it was lowered.
     pub whole: Vec<bool>,
+    /// By library: its layouts, as far as they are right.
+    pub layouts: Vec<Vec<Placed>>,
     /// By task.
     pub task_spans: Vec<TaskSpans>,
     /// By scene: its backdrop.
     pub backdrop_spans: Vec<Span>,
+    /// By scene: what its objects are marked as.
+    pub marks: Vec<Vec<Mark>>,
+}
+
+/// `marked LIBRARY.LAYOUT as CLASS`.
+pub(super) struct Mark {
+    /// Which of the scene's objects.
+    pub object: usize,
+    /// Which library.
+    pub library: usize,
+    /// The layout's name.
+    pub layout: String,
+    /// Which of the library's classes.
+    pub class: usize,
+    /// Where it stands.
+    pub span: Span,
 }
 
 /// Expands a checked program.
@@ -50,13 +69,16 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
             scenes: Vec::new(),
         },
         whole: Vec::new(),
+        layouts: Vec::new(),
         task_spans: Vec::new(),
         backdrop_spans: Vec::new(),
+        marks: Vec::new(),
     };
     let mut libraries = Vec::new();
     for library in &typed.libraries {
         let before = lowering.found.len();
-        let lowered = lowering.library(library);
+        let (lowered, layouts) = lowering.library(library);
+        out.layouts.push(layouts);
         libraries.push((lowered, library.whole && lowering.found.len() == before));
     }
     for task in &typed.tasks {
@@ -66,8 +88,9 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         }
     }
     for scene in &typed.scenes {
-        let lowered = lowering.scene(scene, &libraries);
+        let (lowered, marks) = lowering.scene(scene, &libraries);
         out.rules.scenes.push(lowered);
+        out.marks.push(marks);
         out.backdrop_spans.push(scene.backdrop_span);
     }
     (out.rules.libraries, out.whole) = libraries.into_iter().unzip();

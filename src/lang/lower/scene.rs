@@ -1,20 +1,42 @@
 //! Scenes: backdrops, objects and the markers that they carry.
 
-use super::Lowering;
 use super::expand::Env;
+use super::{Lowering, Mark};
 use crate::geometry::{Pose, Rotation, Vector};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::types::typed;
 use crate::rules::{Backdrop, Library, Marker, Scene, SceneObject, Value};
 
 impl<'a> Lowering<'a> {
-    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[(Library, bool)]) -> Scene {
-        Scene {
-            name: scene.name.clone(),
-            backdrop: scene.backdrop.as_ref().and_then(|b| self.backdrop(b)),
-            objects: scene.objects.iter().filter_map(|o| self.object(o, libraries)).collect(),
-            place: self.place(scene.span),
+    /// A scene, and what its objects are marked as.
+    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[(Library, bool)]) -> (Scene, Vec<Mark>) {
+        let backdrop = scene.backdrop.as_ref().and_then(|b| self.backdrop(b));
+        let (mut objects, mut marks) = (Vec::new(), Vec::new());
+        for object in &scene.objects {
+            let Some(lowered) = self.object(object, libraries) else {
+                continue;
+            };
+            marks.extend(object.marked.as_ref().and_then(|m| self.mark(m, objects.len())));
+            objects.push(lowered);
         }
+        let scene = Scene {
+            name: scene.name.clone(),
+            backdrop,
+            objects,
+            place: self.place(scene.span),
+        };
+        (scene, marks)
+    }
+
+    fn mark(&self, marked: &typed::Marked, object: usize) -> Option<Mark> {
+        let layout = self.typed.libraries.get(marked.library)?.layouts.get(marked.layout)?;
+        Some(Mark {
+            object,
+            library: marked.library,
+            layout: layout.name.clone(),
+            class: marked.class,
+            span: marked.span,
+        })
     }
 
     fn backdrop(&mut self, backdrop: &'a typed::Expr) -> Option<Backdrop> {

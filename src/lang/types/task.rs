@@ -277,6 +277,7 @@ fn assemble(task: &tree::Task, mut draft: Draft) -> Option<Task> {
         name: task.name.text.clone(),
         library: draft.library?,
         goal: draft.goal?,
+        goal_span: *draft.seen.get("goal")?,
         camera: draft.values.remove("camera")?,
         shape: draft.values.remove("space")?,
         at: draft.values.remove("at")?,
