@@ -9,6 +9,7 @@
 
 pub mod cli;
 pub mod detect;
+pub mod facts;
 pub mod geometry;
 pub mod lang;
 pub mod map;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::files::{Disk, human};
-use super::{Failure, Outcome, print, report};
+use super::{Failure, Outcome, more, print, report};
 use crate::lang::{self, render};
 
 /// Compile a program to its rule set, written as JSON.
@@ -22,6 +22,7 @@ pub(crate) struct Compile {
 pub(crate) fn run(options: &Compile) -> Result<Outcome, Failure> {
     let compiled = lang::compile(&options.file, &Disk).without_notes();
     report(&render(&compiled.diagnostics, &compiled.sources, human()))?;
+    report(&more([&compiled], human()))?;
     let Some(rules) = compiled.rules else {
         return Ok(Outcome::WrongInput);
     };

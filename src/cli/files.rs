@@ -1,8 +1,10 @@
 //! Files for the language: the file system and standard input.
 
-use std::fs::File;
-use std::io::{self, IsTerminal, Read};
+use std::fs::{self, File};
+use std::io::{self, IsTerminal, Read, Write};
+use std::path::Path;
 
+use super::Failure;
 use crate::lang::{Format, MOST_BYTES, ReadFailure, World};
 
 /// The path that means standard input.
@@ -42,13 +44,45 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// The form for people on standard error: drawn, and coloured only on a terminal
-/// that does not ask for none.
+/// Gives a file another text: all of it or, where that fails, none of it. The file
+/// keeps its permissions, and a link keeps pointing to it.
+///
+/// # Errors
+/// The file is no plain file, may not be written, or its folder has no room.
+pub(crate) fn replace(path: &str, text: &str) -> Result<(), Failure> {
+    let failed = |error| Failure::Write(format!("`{path}`"), error);
+    beside(Path::new(path), text).map_err(failed)
+}
+
+/// Writes a new file beside the old one, and puts it in its place.
+fn beside(path: &Path, text: &str) -> io::Result<()> {
+    let path = path.canonicalize()?;
+    let held = fs::metadata(&path)?;
+    if !held.is_file() {
+        return Err(io::Error::other("it is no plain file"));
+    }
+    if held.permissions().readonly() {
+        return Err(io::ErrorKind::PermissionDenied.into());
+    }
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let mut new = tempfile::Builder::new().prefix(".vpl-").tempfile_in(folder)?;
+    new.write_all(text.as_bytes())?;
+    new.as_file().set_permissions(held.permissions())?;
+    new.as_file().sync_all()?;
+    new.persist(&path)?;
+    Ok(())
+}
+
+/// Whether to colour what goes to a stream: on a terminal, where none is not asked for.
+pub(crate) fn coloured(stream: &impl IsTerminal) -> bool {
+    stream.is_terminal() && !std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty())
+}
+
+/// The form for people on standard error: drawn, as wide as the terminal.
 pub(crate) fn human() -> Format {
-    let terminal = io::stderr().is_terminal();
-    let plain = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
+    let width = terminal_size::terminal_size_of(io::stderr()).map_or(100, |(width, _)| usize::from(width.0));
     Format::Human {
-        colour: terminal && !plain,
-        width: 100,
+        colour: coloured(&io::stderr()),
+        width,
     }
 }

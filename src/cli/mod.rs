@@ -2,8 +2,13 @@
 
 mod check;
 mod compile;
+mod completions;
+mod explain;
 mod files;
+mod new;
 mod plan;
+mod test;
+mod why;
 
 pub use files::Disk;
 
@@ -12,6 +17,8 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+use crate::lang::{Code, Compilation, Format, Severity};
 
 /// View Planning Language: say what to perceive, get the next best view.
 #[derive(Parser)]
@@ -23,9 +30,14 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Verb {
+    New(new::New),
     Check(check::Check),
+    Explain(explain::Explain),
     Compile(compile::Compile),
     Plan(Box<plan::Plan>),
+    Test(test::Test),
+    Why(why::Why),
+    Completions(completions::Completions),
 }
 
 /// How a command ended; the numbers are its exit status.
@@ -43,17 +55,39 @@ pub(crate) enum Outcome {
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     /// A result could not be written.
-    #[error("error[E0601]: {0} cannot be written: {1}")]
+    #[error("error[{code}]: {0} cannot be written: {1}", code = Code::E0601)]
     Write(String, io::Error),
     /// A run log is not of the run that would be continued.
-    #[error("error[E0602]: {0} cannot be resumed: {1}")]
+    #[error("error[{code}]: {0} cannot be resumed: {1}", code = Code::E0602)]
     Resume(String, String),
     /// A run could not be made or continued.
-    #[error("error[E0603]: {0}")]
+    #[error("error[{code}]: {0}", code = Code::E0603)]
     Run(String),
+    /// A run log cannot be read.
+    #[error("error[{code}]: {0} cannot be read: {1}", code = Code::E0711)]
+    Log(String, String),
+    /// A file is no run log.
+    #[error("error[{code}]: {0} is no run log: {1}", code = Code::E0712)]
+    NoLog(String, String),
+    /// A question about something that a run does not know.
+    #[error("error[{code}]: {0}", code = Code::E0713)]
+    Subject(String),
+    /// A question about a view that a run does not have.
+    #[error("error[{code}]: {0}", code = Code::E0714)]
+    Moment(String),
     /// The command was called wrongly.
     #[error("error: {0}")]
     Usage(String),
+}
+
+impl Failure {
+    /// The exit status: 2 where the command was called wrongly.
+    fn status(&self) -> u8 {
+        match self {
+            Self::Usage(_) | Self::Subject(_) | Self::Moment(_) => 2,
+            _ => 1,
+        }
+    }
 }
 
 /// Runs the program with its arguments, the program's name first.
@@ -63,9 +97,14 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(error) => return usage(&error),
     };
     let outcome = match cli.verb {
+        Verb::New(new) => new::run(&new),
         Verb::Check(check) => check::run(&check),
+        Verb::Explain(explain) => explain::run(&explain),
         Verb::Compile(compile) => compile::run(&compile),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Test(test) => test::run(&test),
+        Verb::Why(why) => why::run(&why),
+        Verb::Completions(completions) => completions::run(&completions),
     };
     match outcome {
         Ok(outcome) => ExitCode::from(outcome as u8),
@@ -73,7 +112,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(Failure::Write(_, error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
             let _ = writeln!(io::stderr(), "{failure}");
-            ExitCode::from(if matches!(failure, Failure::Usage(_)) { 2 } else { 1 })
+            ExitCode::from(failure.status())
         }
     }
 }
@@ -97,5 +136,14 @@ pub(crate) fn report(text: &str) -> Result<(), Failure> {
     match io::stderr().lock().write_all(text.as_bytes()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Write("standard error".into(), error)),
         _ => Ok(()),
+    }
+}
+
+/// Where a report for people says how to learn more: of the first error.
+pub(crate) fn more<'a>(checked: impl IntoIterator<Item = &'a Compilation>, format: Format) -> String {
+    let mut all = checked.into_iter().flat_map(|c| &c.diagnostics);
+    match (format, all.find(|d| d.severity == Severity::Error)) {
+        (Format::Human { .. }, Some(first)) => format!("for more, run `vpl explain {}`\n", first.code),
+        _ => String::new(),
     }
 }

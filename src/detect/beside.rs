@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::account::{Account, Condition, Unit};
 use super::evidence::FaceEvidence;
 use super::faces::{Face, faces};
 use super::scan::Scan;
@@ -28,17 +29,45 @@ pub struct Dihedral {
 
 /// `plane_beside(edge, dihedral, within, colour?)`: the faces that share the
 /// edge at that angle, the face that comes nearest along it first.
-pub fn plane_beside(scan: &Scan, edge: &Edge, dihedral: Dihedral, colour: Option<Colour>) -> Vec<FaceEvidence> {
-    let mut found: Vec<(f64, Face)> = faces(scan, colour, SMALLEST)
-        .into_iter()
-        .filter(|face| (interior_angle(scan, edge, face) - dihedral.angle).abs() <= dihedral.within)
-        .map(|face| (share_along(scan, edge, &face), face))
-        .filter(|(share, face)| *share >= ALONG && !same_plane(edge, face))
-        .collect();
+pub fn plane_beside(
+    scan: &Scan,
+    edge: &Edge,
+    dihedral: Dihedral,
+    colour: Option<Colour>,
+) -> (Vec<FaceEvidence>, Account) {
+    let (faces, mut account) = faces(scan, colour, SMALLEST);
+    let mut found: Vec<(f64, Face)> = Vec::new();
+    for mut face in faces {
+        match shares(scan, edge, dihedral, &mut face) {
+            Some(share) => found.push((share, face)),
+            None => account.reject(face.judged),
+        }
+    }
     found.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.area.total_cmp(&a.1.area)));
     // One edge bounds one other face; what else comes near is a sliver of it.
     found.truncate(1);
-    found.iter().map(|(_, face)| FaceEvidence::of(scan, face)).collect()
+    let account = account.accept(found.first().map(|(_, face)| &face.judged));
+    (
+        found.iter().map(|(_, face)| FaceEvidence::of(scan, face)).collect(),
+        account,
+    )
+}
+
+/// The share of the edge along which a face at that angle lies; `None` where
+/// the edge is not theirs in common.
+fn shares(scan: &Scan, edge: &Edge, dihedral: Dihedral, face: &mut Face) -> Option<f64> {
+    let angle = interior_angle(scan, edge, face);
+    let angle = Condition::about("dihedral", Unit::Angle, angle, dihedral.angle, dihedral.within);
+    if !face.judged.holds(angle) {
+        return None;
+    }
+    let share = share_along(scan, edge, face);
+    let along = Condition::at_least("along the edge", Unit::Share, share, ALONG);
+    if !face.judged.holds(along) {
+        return None;
+    }
+    let another = Condition::plain("a face other than the edge's own", !same_plane(edge, face));
+    face.judged.holds(another).then_some(share)
 }
 
 /// π − the angle between the outward normals at a convex edge, π + it at a concave one.

@@ -1,5 +1,6 @@
 //! `planar_region`: planar faces of a colour in one view.
 
+use super::account::{Account, Condition, Judgement, Unit};
 use super::colour::matches;
 use super::evidence::FaceEvidence;
 use super::join::{close_together, pieces};
@@ -20,39 +21,56 @@ pub struct Face {
     pub rms: f64,
     /// Its seen area, square metres.
     pub area: f64,
+    /// What it has met to be one.
+    pub judged: Judgement,
 }
 
 /// Faces of a colour (any where `None`) of at least `smallest`² square metres, largest first.
-pub fn faces(scan: &Scan, colour: Option<Colour>, smallest: f64) -> Vec<Face> {
+pub fn faces(scan: &Scan, colour: Option<Colour>, smallest: f64) -> (Vec<Face>, Account) {
     let mut found: Vec<Face> = Vec::new();
+    let mut account = Account::of(scan.regions.len());
     for region in &scan.regions {
         let fits = |p: &usize| colour.is_none_or(|c| scan.colours[*p].is_some_and(|seen| matches(c, seen)));
         let pixels: Vec<usize> = region.pixels.iter().copied().filter(fits).collect();
         let mut parts = pieces(&scan.cloud, &pixels);
+        let largest = parts.iter().map(Vec::len).max().unwrap_or(0);
+        let mut judged = Judgement::default();
+        if !judged.holds(coloured(colour, largest)) {
+            account.reject(judged);
+            continue;
+        }
         parts.retain(|p| p.len() >= LEAST_PIECE);
         for pixels in close_together(&scan.cloud, parts) {
             let area = pixels
                 .iter()
                 .map(|&p| scan.cloud.footprint_area(p, &region.plane.normal))
                 .sum();
-            if area >= smallest * smallest {
-                found.push(Face {
-                    plane: region.plane,
-                    rms: region.rms,
-                    pixels,
-                    area,
-                });
+            let mut judged = judged.clone();
+            if !judged.holds(Condition::at_least("area", Unit::Area, area, smallest * smallest)) {
+                account.reject(judged);
+                continue;
             }
+            found.push(Face {
+                plane: region.plane,
+                rms: region.rms,
+                pixels,
+                area,
+                judged,
+            });
         }
     }
     found.sort_by(|a, b| b.area.total_cmp(&a.area));
-    found
+    (found, account)
+}
+
+/// Whether the largest connected piece of a colour is more than a speck.
+fn coloured(colour: Option<Colour>, largest: usize) -> Condition {
+    Condition::at_least("colour", Unit::Pixels, largest as f64, LEAST_PIECE as f64).of(colour.map(String::from))
 }
 
 /// `planar_region(colour?, smallest)`.
-pub fn planar_region(scan: &Scan, colour: Option<Colour>, smallest: f64) -> Vec<FaceEvidence> {
-    faces(scan, colour, smallest)
-        .iter()
-        .map(|f| FaceEvidence::of(scan, f))
-        .collect()
+pub fn planar_region(scan: &Scan, colour: Option<Colour>, smallest: f64) -> (Vec<FaceEvidence>, Account) {
+    let (found, account) = faces(scan, colour, smallest);
+    let account = account.accept(found.first().map(|f| &f.judged));
+    (found.iter().map(|f| FaceEvidence::of(scan, f)).collect(), account)
 }

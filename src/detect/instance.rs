@@ -1,6 +1,6 @@
 //! Measured attributes, and when two measurements are of one instance.
 
-use crate::geometry::{Point, Polygon, Pose};
+use crate::geometry::{Edge, Point, Polygon, Pose};
 
 /// The attributes of a measured instance.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +24,8 @@ const TURNED_COSINE: f64 = 0.9659; // 15°
 const OVERLAP: f64 = 0.5;
 /// Samples along the shorter extent of a polygon when overlap is measured.
 const SAMPLES: f64 = 24.0;
+/// Most samples along the longest edge, for a face that is no more than a line.
+const MOST_SAMPLES: f64 = 4096.0;
 
 impl Measurement {
     /// Whether two measurements are of one instance: the polygons overlap by
@@ -55,16 +57,9 @@ impl Measurement {
         match self {
             Self::Face(polygon) => vec![polygon.clone()],
             Self::Shell(faces) => faces.clone(),
-            Self::Marker { pose, size } => square(pose, *size).into_iter().collect(),
+            Self::Marker { pose, size } => Polygon::square(pose, *size).into_iter().collect(),
         }
     }
-}
-
-/// A marker's square of modules, counter-clockwise about its normal.
-fn square(pose: &Pose, size: f64) -> Option<Polygon> {
-    let h = size / 2.0;
-    let corner = |x: f64, y: f64| pose * Point::new(x, y, 0.0);
-    Polygon::new(vec![corner(-h, -h), corner(h, -h), corner(h, h), corner(-h, h)])
 }
 
 fn same_face(a: &Polygon, b: &Polygon, near: f64) -> bool {
@@ -72,7 +67,8 @@ fn same_face(a: &Polygon, b: &Polygon, near: f64) -> bool {
     if small.normal().dot(&large.normal()) < TURNED_COSINE {
         return false;
     }
-    let spacing = small.area().sqrt() / SAMPLES;
+    let longest = small.edges().iter().map(Edge::length).fold(0.0, f64::max);
+    let spacing = (small.area().sqrt() / SAMPLES).max(longest / MOST_SAMPLES);
     let samples = small.samples(spacing);
     let common = samples
         .iter()

@@ -5,6 +5,7 @@
 //! the images alone; where a detector can be expected to succeed is declared
 //! in `primitives`.
 
+mod account;
 mod beside;
 mod cloud;
 mod colour;
@@ -24,6 +25,7 @@ mod segment;
 #[cfg(test)]
 mod tests;
 
+pub use account::{Account, Condition, Test, Unit};
 pub use evidence::{Evidence, FaceEvidence, Look, MarkerEvidence};
 pub use instance::Measurement;
 pub use scan::Scan;
@@ -35,12 +37,14 @@ use crate::rules::{BadArgument, Colour};
 use outline::Begin;
 
 /// proof() of a polygon or marker rule on one view: every instance it finds,
-/// the surest first.
+/// the surest first, and what it looked at.
 ///
 /// # Errors
 /// `primitive` is no detector of single views, or an argument is missing or of another type.
-pub fn detect(primitive: &str, arguments: &Arguments, scan: &Scan) -> Result<Vec<Evidence>, BadArgument> {
-    let face = |found: Vec<FaceEvidence>| found.into_iter().map(Evidence::Face).collect();
+pub fn detect(primitive: &str, arguments: &Arguments, scan: &Scan) -> Result<(Vec<Evidence>, Account), BadArgument> {
+    let face = |(found, account): (Vec<FaceEvidence>, Account)| -> (Vec<Evidence>, Account) {
+        (found.into_iter().map(Evidence::Face).collect(), account)
+    };
     match primitive {
         "planar_region" => Ok(face(faces::planar_region(
             scan,
@@ -60,15 +64,16 @@ pub fn detect(primitive: &str, arguments: &Arguments, scan: &Scan) -> Result<Vec
             )))
         }
         "qr" => {
-            let found = qr::qr(scan, arguments.text("text")?, arguments.length("size")?);
-            Ok(found.into_iter().map(Evidence::Marker).collect())
+            let (found, account) = qr::qr(scan, arguments.text("text")?, arguments.length("size")?);
+            Ok((found.into_iter().map(Evidence::Marker).collect(), account))
         }
         other => Err(BadArgument::new(other, "a detector of single views")),
     }
 }
 
 /// proof() of a shell rule: whether at least `share` of the predicted points
-/// have a measured point within twice `near` metres. Nothing predicted is not proven.
+/// have a measured point within twice `near` metres, as the one condition on it.
+/// Nothing predicted is not proven.
 ///
 /// # Errors
 /// `primitive` is no detector of shells, or an argument is missing or of another type.
@@ -78,13 +83,21 @@ pub fn shell_proven(
     predicted: &[Point],
     map: &Map,
     near: f64,
-) -> Result<bool, BadArgument> {
+) -> Result<Condition, BadArgument> {
     if primitive != "mostly_seen" {
         return Err(BadArgument::new(primitive, "a detector of shells"));
     }
     let share = arguments.share("share")?;
     let seen = predicted.iter().filter(|p| map.measured_within(p, 2.0 * near)).count();
-    Ok(!predicted.is_empty() && seen as f64 >= share * predicted.len() as f64)
+    let proven = !predicted.is_empty() && seen as f64 >= share * predicted.len() as f64;
+    let found = seen as f64 / predicted.len() as f64;
+    Ok(Condition::quantity(
+        "seen",
+        Unit::Share,
+        found,
+        (Some(share), None),
+        proven,
+    ))
 }
 
 /// cal(): the attributes of what was found; `None` where the evidence is too

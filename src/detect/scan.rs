@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::cloud::{Cloud, window};
-use super::qr::{self, Code};
+use super::qr::{self, Reading};
 use super::segment::{Region, segment};
 use crate::geometry::{Bounds, Intrinsics};
 use crate::rules::Space;
@@ -17,7 +17,7 @@ pub struct Scan {
     /// Colour at each pixel of the cloud; `None` outside the colour image.
     pub(super) colours: Vec<Option<[u8; 3]>>,
     luma: Luma,
-    codes: OnceLock<Vec<Code>>,
+    reading: OnceLock<Reading>,
 }
 
 /// The part of the colour image around the space, as brightness.
@@ -43,13 +43,13 @@ impl Scan {
             regions,
             colours,
             luma,
-            codes: OnceLock::new(),
+            reading: OnceLock::new(),
         }
     }
 
-    /// Every code that can be read in this view.
-    pub(super) fn codes(&self) -> &[Code] {
-        self.codes
+    /// What codes can be read in this view.
+    pub(super) fn reading(&self) -> &Reading {
+        self.reading
             .get_or_init(|| qr::read(&self.cloud, &self.regions, &self.colours, &self.luma))
     }
 }

@@ -168,7 +168,7 @@ fn every_unhidden_marker_inside_the_envelope_is_read() {
                 looks += 1;
                 let text = constant(Value::Text(marker.text.clone()));
                 let asked = arguments(&[("text", text), ("size", constant(Value::Length(SIZE)))]);
-                let found = detect("qr", &asked, &scan).unwrap();
+                let found = detect("qr", &asked, &scan).unwrap().0;
                 assert_eq!(found.len(), 1, "`{}` in view {n}", marker.text);
                 let measured = measure("marker_pose", &Arguments::default(), &found[0]).unwrap();
                 let Some(Measurement::Marker { pose, .. }) = measured else {
@@ -188,7 +188,7 @@ fn a_code_of_another_text_or_size_is_not_this_one() {
     let (sim, _) = tank(&space, 0.0);
     let from_above = crate::geometry::look_at(Point::new(0.3, 0.0, 1.55), Point::origin());
     let scan = Scan::new(&sim.observe(&kinect(), &from_above, Noise::None, 1, 0), &space);
-    let count = |text: &str, size: f64| qr::qr(&scan, text, size).len();
+    let count = |text: &str, size: f64| qr::qr(&scan, text, size).0.len();
     assert_eq!(
         (
             count("f7", SIZE),
@@ -244,7 +244,7 @@ fn a_deformed_side_is_one_rectangle_on_its_edge() {
                 [("dihedral", 90_f64), ("within", 10.0)].map(|(n, a)| (n, constant(Value::Angle(a.to_radians()))));
             let mut asked = arguments(&angles);
             asked.0.insert("edge".into(), Datum::Edge(edge));
-            let found = detect("plane_beside", &asked, &scan).unwrap();
+            let found = detect("plane_beside", &asked, &scan).unwrap().0;
             if incidence > 100_f64.to_radians() {
                 assert!(found.is_empty(), "view {n} sees a side from behind");
             }
@@ -283,7 +283,7 @@ fn neighbouring_sides_of_one_colour_are_told_apart() {
     let view = crate::geometry::look_at(Point::new(1.35, 0.1, 0.4), Point::origin());
     for noise in [Noise::None, Noise::StructuredLight] {
         let scan = Scan::new(&sim.observe(&kinect(), &view, noise, 3, 0), &space);
-        let found = detect("planar_region", &asked, &scan).unwrap();
+        let found = detect("planar_region", &asked, &scan).unwrap().0;
         let faces: Vec<Measurement> = found
             .iter()
             .filter_map(|e| measure("outline", &Arguments::default(), e).unwrap())
@@ -316,7 +316,7 @@ fn views_of_one_face_merge() {
         let eye = Point::new(0.9 * turn.cos(), 0.9 * turn.sin(), -1.1);
         let view = crate::geometry::look_at(eye, Point::origin());
         let scan = Scan::new(&sim.observe(&kinect(), &view, Noise::StructuredLight, 5, n), &space);
-        let found = detect("planar_region", &asked, &scan).unwrap().remove(0);
+        let found = detect("planar_region", &asked, &scan).unwrap().0.remove(0);
         match &mut merged {
             Some(evidence) => evidence.merge(found),
             None => merged = Some(found),

@@ -8,6 +8,7 @@ use super::frame::{Point, Vector};
 ///
 /// Pixel (u, v) covers [u, u+1) × [v, v+1); its centre is (u + 0.5, v + 0.5).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Intrinsics {
     /// Columns.
     pub width: u32,
@@ -63,6 +64,7 @@ impl Intrinsics {
 
 /// The z-depths at which a sensor gives readings, metres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct DepthRange {
     /// Nearest reading.
     pub min: f64,
@@ -80,6 +82,7 @@ impl DepthRange {
 /// An RGB-D camera. Depth is registered: both images share one pose and
 /// optical centre, and may differ in resolution and field of view.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Camera {
     /// The depth image.
     pub depth: Intrinsics,

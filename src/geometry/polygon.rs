@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::frame::{Point, Vector};
+use super::frame::{Point, Pose, Vector};
 
 /// A planar polygon.
 ///
@@ -74,6 +74,14 @@ impl Polygon {
         Some(Self { vertices, normal })
     }
 
+    /// The square of edge `size` about a place's origin, facing its +z: lower left,
+    /// lower right, upper right, upper left as one looks at it.
+    pub fn square(world_from_place: &Pose, size: f64) -> Option<Self> {
+        let half = size / 2.0;
+        let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
+        Self::new(corners.map(|(x, y)| world_from_place * Point::new(x, y, 0.0)).to_vec())
+    }
+
     /// The same polygon with its vertices ordered so that it faces `outward`.
     pub fn facing(mut self, outward: &Vector) -> Self {
         if self.normal.dot(outward) < 0.0 {
@@ -113,6 +121,17 @@ impl Polygon {
             end: self.vertices[(k + 1) % n],
             face_normal: self.normal,
         }
+    }
+
+    /// The vertex farthest from the line of the first edge, and that distance.
+    pub fn apex(&self) -> (Point, f64) {
+        let base = self.edge(0);
+        let from_line = |p: &Point| (p - base.start).cross(&base.direction()).norm();
+        let first = (base.start, 0.0);
+        self.vertices.iter().fold(first, |best, vertex| {
+            let distance = from_line(vertex);
+            if distance > best.1 { (*vertex, distance) } else { best }
+        })
     }
 
     /// Area, square metres.

@@ -8,28 +8,39 @@
 
 mod checks;
 mod diagnostics;
+mod format;
 mod lower;
 mod names;
+mod repair;
 mod source;
 mod stdlib;
 pub mod syntax;
 mod types;
 mod world;
 
-pub use diagnostics::{Code, Diagnostic, Edit, Fix, Format, Label, Severity, render, title};
+pub use diagnostics::{
+    Code, Diagnostic, Edit, Fix, Format, Label, Severity, UnknownCode, edited, explain, index_of_codes, list_of_codes,
+    page, render, similar_codes, title,
+};
+pub use format::{Formatted, edits, format};
+pub(crate) use names::suggest::closest;
+pub use repair::{Applied, Repaired, repair};
 pub use source::{FileId, SourceFile, SourceMap, Span};
+pub use syntax::{Token, TokenClass, tokens};
 pub use world::{MOST_BYTES, Memory, ReadFailure, World};
 
-use crate::rules::RuleSet;
+use crate::rules::{Fact, RuleSet};
 
 /// The language edition that this build reads.
-pub const EDITION: u32 = 1;
+pub const EDITION: u32 = crate::rules::LANGUAGE;
 
 /// What compiling a program gave.
 #[derive(Debug)]
 pub struct Compilation {
     /// The compiled program; `Some` exactly when no diagnostic is an error.
     pub rules: Option<RuleSet>,
+    /// The tests of the main file; none where some diagnostic is an error.
+    pub facts: Vec<Fact>,
     /// Everything there is to say about it, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
     /// The files that were read. [`crate::rules::Place::file`] is a [`FileId`] here.
@@ -59,7 +70,7 @@ pub fn compile(path: &str, world: &dyn World) -> Compilation {
         let (lowered, found) = lower::lower(&program, &typed, &sources);
         diagnostics.extend(found);
         diagnostics.extend(checks::check(&lowered));
-        lowered.rules
+        (lowered.rules, lowered.facts)
     });
     diagnostics::in_order(&mut diagnostics);
     let failed = diagnostics.iter().any(|d| d.severity == Severity::Error);
@@ -67,8 +78,10 @@ pub fn compile(path: &str, world: &dyn World) -> Compilation {
         // What a task costs is of interest once it is one.
         diagnostics.retain(|d| d.severity != Severity::Note);
     }
+    let (rules, facts) = rules.filter(|_| !failed).unzip();
     Compilation {
-        rules: rules.filter(|_| !failed),
+        rules,
+        facts: facts.unwrap_or_default(),
         diagnostics,
         sources,
     }

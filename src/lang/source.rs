@@ -58,6 +58,7 @@ pub struct SourceFile {
     /// Its text, up to where it is no longer UTF-8.
     pub text: String,
     sha256: String,
+    shipped: bool,
     line_starts: Vec<usize>,
 }
 
@@ -78,6 +79,7 @@ impl SourceFile {
             path,
             text,
             sha256,
+            shipped: false,
             line_starts,
         }
     }
@@ -92,9 +94,28 @@ impl SourceFile {
 
     /// The text of a line, from 1, without its end.
     pub fn line(&self, line: usize) -> &str {
-        let start = self.line_starts.get(line - 1).copied().unwrap_or(self.text.len());
-        let rest = &self.text[start..];
+        let rest = &self.text[self.line_start(line)..];
         rest.split(['\n', '\r']).next().unwrap_or(rest)
+    }
+
+    /// The first byte of a line, from 1; the text's end where it has fewer lines.
+    pub(super) fn line_start(&self, line: usize) -> usize {
+        self.line_starts.get(line - 1).copied().unwrap_or(self.text.len())
+    }
+
+    /// Its digest, in hexadecimal digits.
+    pub(super) fn sha256(&self) -> &str {
+        &self.sha256
+    }
+
+    /// The same file, as one that is shipped inside the program.
+    pub(super) fn shipped(self) -> Self {
+        Self { shipped: true, ..self }
+    }
+
+    /// Whether it is shipped inside the program, and is no file of the user's.
+    pub fn is_shipped(&self) -> bool {
+        self.shipped
     }
 }
 
@@ -121,6 +142,11 @@ impl SourceMap {
     /// The file of an id; `None` where it is of another map.
     pub fn get(&self, id: FileId) -> Option<&SourceFile> {
         self.files.get(id.0 as usize)
+    }
+
+    /// All files with their ids.
+    pub fn files(&self) -> impl Iterator<Item = (FileId, &SourceFile)> {
+        (0..).map(FileId).zip(&self.files)
     }
 
     /// The text under a span; empty where there is none.

@@ -30,22 +30,11 @@ fn of_face(face: &Polygon, name: &str) -> Option<Datum> {
         "self" => Datum::Polygon(face.clone()),
         "edges" => Datum::Edges(face.edges()),
         "base" => Datum::Edge(face.edge(0)),
-        "apex" => point(farthest_from_base(face).0),
-        "height" => Datum::Constant(Value::Length(farthest_from_base(face).1)),
+        "apex" => point(face.apex().0),
+        "height" => Datum::Constant(Value::Length(face.apex().1)),
         "centre" => point(face.centre()),
         "normal" => direction(face.normal()),
         _ => return None,
-    })
-}
-
-/// The vertex farthest from the line of the first edge, and that distance.
-fn farthest_from_base(face: &Polygon) -> (Point, f64) {
-    let base = face.edge(0);
-    let from_line = |p: &Point| (p - base.start).cross(&base.direction()).norm();
-    let first = (base.start, 0.0);
-    face.vertices().iter().fold(first, |best, vertex| {
-        let distance = from_line(vertex);
-        if distance > best.1 { (*vertex, distance) } else { best }
     })
 }
 

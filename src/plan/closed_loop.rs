@@ -80,7 +80,7 @@ impl<'a, S: Sensor> ClosedLoop<'a, S> {
             .observe_in_phases(view, &observation, &mut |phase| ended(Part::Session(phase)))?;
         let decision = self.session.next_view();
         self.next = match &decision {
-            Decision::Next(next) => Some(next.view),
+            Decision::Next(next) => Some(next.chosen.view),
             Decision::End(_) => None,
         };
         Ok(Some(Step {

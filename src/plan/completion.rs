@@ -1,9 +1,12 @@
 //! Completion status and how a run ends (eqs. 10 and 11, expected completion).
 
+use super::features::FeatureStatus;
 use super::knowledge::Knowledge;
 use super::predictions::is_inspected;
+use super::score::Gains;
 use super::status::Status;
-use crate::rules::Goal;
+use crate::detect::{Condition, Unit};
+use crate::rules::{Class, Goal};
 
 /// s_cmp = (s_cfd, s_ail).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,17 +45,87 @@ impl Outcome {
 /// s_cfd (eq. 10): the likeliest class has reached ξ_cfd; with `verify: all`
 /// only when every feature of it whose place is predicted has been inspected.
 pub fn confident(status: &Status, knowledge: &Knowledge) -> bool {
+    let contradicted = status.contradiction.is_some() || knowledge.library.classes.is_empty();
+    !contradicted && confidence(status, knowledge).iter().all(|c| c.holds)
+}
+
+/// The conditions of s_cfd, for the likeliest class.
+fn confidence(status: &Status, knowledge: &Knowledge) -> Vec<Condition> {
     let (winner, probability) = likeliest(&status.posterior);
-    let Some(class) = knowledge.library.classes.get(winner) else {
-        return false;
+    let class = knowledge.library.classes.get(winner);
+    let probability = if status.contradiction.is_some() {
+        0.0
+    } else {
+        probability
     };
+    let least = knowledge.task.thresholds.confidence;
+    let certain = Condition::at_least("confident", Unit::Share, probability, least);
+    let mut conditions = vec![certain.of(class.map(|c| c.name.clone()))];
+    if let Some(class) = class.filter(|_| knowledge.task.verify) {
+        conditions.push(verified(class, status, knowledge));
+    }
+    conditions
+}
+
+/// Whether every predicted feature of a class has been inspected.
+fn verified(class: &Class, status: &Status, knowledge: &Knowledge) -> Condition {
+    let checked = |feature: &FeatureStatus| !feature.is_predicted() || is_inspected(feature, knowledge.criteria.absent);
     let mut has = knowledge.library.feature_ids().filter(|id| class.presence.has(*id));
-    let checked = |feature: &super::features::FeatureStatus| {
-        !feature.is_predicted() || is_inspected(feature, knowledge.criteria.absent)
+    let open = has.find(|id| !checked(status.feature(*id)));
+    let name = open.map(|id| knowledge.library.feature(id).name.clone());
+    Condition::plain("verified", open.is_none()).of(name)
+}
+
+/// Everything that a run can end by, and which of it holds.
+pub fn because(status: &Status, knowledge: &Knowledge, gains: &Gains, limit: u32) -> Vec<Condition> {
+    let library = &knowledge.library;
+    let contradicted = status
+        .contradiction
+        .as_ref()
+        .map(|c| library.feature(c.feature).name.clone());
+    let mut conditions = vec![Condition::plain("contradiction", contradicted.is_some()).of(contradicted)];
+    conditions.extend(confidence(status, knowledge));
+    conditions.extend(exhaustion(knowledge, gains));
+    let views = status.visited.len() as f64;
+    conditions.push(Condition::at_least("view limit", Unit::Count, views, f64::from(limit)));
+    conditions
+}
+
+/// The conditions of s_ail (eq. 11): what the unvisited views come nearest to
+/// gaining does not count. The surface matters only where no feature gains.
+fn exhaustion(knowledge: &Knowledge, gains: &Gains) -> Vec<Condition> {
+    let most = f64::from(knowledge.task.gain_floor.max(1) - 1);
+    let mut conditions = vec![no_feature_gains(most, knowledge, gains)];
+    if gains.w {
+        let nothing = gains.surface.iter().all(|n| *n == 0);
+        let bounds = (None, Some(most));
+        let found = gains.most_surface as f64;
+        conditions.push(Condition::quantity(
+            "surface gain",
+            Unit::Voxels,
+            found,
+            bounds,
+            nothing,
+        ));
+    }
+    conditions
+}
+
+/// `most` voxels of a feature do not count yet; nor do more of one that must be
+/// seen whole, where a view does not show enough of it.
+fn no_feature_gains(most: f64, knowledge: &Knowledge, gains: &Gains) -> Condition {
+    let counted = gains.feature.iter().filter_map(|g| g.target.as_ref());
+    let target = counted.max_by_key(|t| t.reached).or(gains.most_uncounted());
+    let reached = target.map_or(0.0, |t| t.reached as f64);
+    let condition = match target {
+        Some(t) if gains.w && reached > most => {
+            let bounds = (None, Some(knowledge.criteria.absent));
+            let share = reached / t.voxels as f64;
+            Condition::quantity("feature seen whole", Unit::Share, share, bounds, true)
+        }
+        _ => Condition::quantity("feature gain", Unit::Voxels, reached, (None, Some(most)), gains.w),
     };
-    status.contradiction.is_none()
-        && probability >= knowledge.task.thresholds.confidence
-        && (!knowledge.task.verify || has.all(|id| checked(status.feature(id))))
+    condition.of(target.map(|t| knowledge.library.feature(t.feature).name.clone()))
 }
 
 /// The likeliest class, the first of equals, and its probability.

@@ -41,7 +41,11 @@ impl Context<'_> {
         Ok(Some(Arguments(evaluated)))
     }
 
-    fn value(&self, expr: &Expr) -> Evaluated {
+    /// The value of an expression; `None` where it has none yet.
+    ///
+    /// # Errors
+    /// It does not fit together.
+    pub fn value(&self, expr: &Expr) -> Evaluated {
         match expr {
             Expr::Value(value) => Ok(Some(Datum::Constant(value.clone()))),
             Expr::Variable(name) => match self.variables.get(name) {
@@ -62,10 +66,7 @@ impl Context<'_> {
                 Ok(items?.map(Datum::List))
             }
             Expr::Call(call) => match self.arguments(call)? {
-                Some(arguments) => {
-                    let point = predict::point(&call.primitive, &arguments)?;
-                    Ok(point.map(|p| Datum::Constant(Value::Point(p))))
-                }
+                Some(arguments) => predict::value(&call.primitive, &arguments),
                 None => Ok(None),
             },
         }

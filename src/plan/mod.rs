@@ -24,6 +24,8 @@ pub mod score;
 mod session;
 mod simulated;
 mod status;
+mod supposed;
+pub mod trace;
 mod viewpoint;
 pub mod weights;
 mod world;
@@ -34,9 +36,13 @@ pub use error::PlanError;
 pub use features::Existence;
 pub use knowledge::Knowledge;
 pub use reasoning::Proofs;
-pub use report::{ContradictionReport, Decision, End, FeatureReport, InstanceReport, Next, TargetName, Terms, Update};
+pub use report::{
+    ContradictionReport, Decision, End, FeatureReport, InstanceReport, Next, Standing, TargetName, Terms, Update,
+};
 pub use session::{Options, Phase, Session};
 pub use simulated::Simulated;
 pub use status::{Contradiction, Status};
+pub use supposed::{Supposed, constant, constant_arguments, suppose};
+pub use trace::{Absence, Proof, RuleTrace, Trace};
 pub use viewpoint::Viewpoint;
 pub use world::World;

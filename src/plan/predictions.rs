@@ -20,6 +20,7 @@ use super::features::{Existence, FeatureStatus, Found, Pin, Predicted};
 use super::inspection::{self, evidence, inspected, predicted_voxels, reachable, tagged};
 use super::knowledge::Knowledge;
 use super::status::Status;
+use super::trace::{Nothing, Trace};
 use super::world::World;
 use crate::detect::Measurement;
 use crate::geometry::{Edge, Point, Polygon, Vector};
@@ -39,12 +40,17 @@ struct Offer {
 ///
 /// # Errors
 /// A rule's arguments do not fit together.
-pub fn refresh<W: World + ?Sized>(status: &mut Status, knowledge: &Knowledge, world: &W) -> Result<(), PlanError> {
+pub fn refresh<W: World + ?Sized>(
+    status: &mut Status,
+    knowledge: &Knowledge,
+    world: &W,
+    trace: &mut Trace,
+) -> Result<(), PlanError> {
     for id in knowledge.library.feature_ids() {
-        let offers = offers(id, status, knowledge)?;
+        let offers = offers(id, status, knowledge, trace)?;
         name_found(id, &offers, status, knowledge);
         let open = unfulfilled(id, offers, status, knowledge);
-        replace(id, open, status, knowledge, world);
+        replace(id, open, status, knowledge, world, trace);
         inspect(id, status, knowledge, world);
     }
     Ok(())
@@ -52,7 +58,7 @@ pub fn refresh<W: World + ?Sized>(status: &mut Status, knowledge: &Knowledge, wo
 
 /// The offers for a feature that may still have instances to find: in state −1
 /// or 2, or detected and `many`.
-fn offers(id: FeatureId, status: &Status, knowledge: &Knowledge) -> Result<Vec<Offer>, PlanError> {
+fn offers(id: FeatureId, status: &Status, knowledge: &Knowledge, trace: &mut Trace) -> Result<Vec<Offer>, PlanError> {
     let state = status.feature(id).state;
     let further = state == Existence::Detected && knowledge.library.feature(id).many;
     let mut offers = Vec::new();
@@ -61,7 +67,7 @@ fn offers(id: FeatureId, status: &Status, knowledge: &Knowledge) -> Result<Vec<O
     }
     for (k, rule) in knowledge.library.rules.iter().enumerate() {
         if rule.consequent == id && !rule.antecedents.is_empty() {
-            let made = offers_of(k, status, knowledge).map_err(|source| PlanError::Rule {
+            let made = offers_of(k, status, knowledge, trace).map_err(|source| PlanError::Rule {
                 rule: rule.id.clone(),
                 source,
             })?;
@@ -71,27 +77,36 @@ fn offers(id: FeatureId, status: &Status, knowledge: &Knowledge) -> Result<Vec<O
     Ok(offers)
 }
 
-fn offers_of(rule: usize, status: &Status, knowledge: &Knowledge) -> Result<Vec<Offer>, BadArgument> {
+fn offers_of(
+    rule: usize,
+    status: &Status,
+    knowledge: &Knowledge,
+    trace: &mut Trace,
+) -> Result<Vec<Offer>, BadArgument> {
     let declared = &knowledge.library.rules[rule];
     let detected = |id: &FeatureId| status.feature(*id).state == Existence::Detected;
     let (true, Some(call)) = (declared.antecedents.iter().all(detected), &declared.predict) else {
         return Ok(Vec::new());
     };
     let mut offers = Vec::new();
+    trace.predicts_anew(rule);
     for expansion in expansions(rule, knowledge, &status.features)? {
         let Some(arguments) = expansion.arguments(call, &status.features)? else {
+            trace.waits(rule, "predict");
             continue;
         };
-        if let Some(prediction) = predict::predict(&call.primitive, &arguments)? {
-            offers.push(Offer {
-                uncertainty: (
-                    strength(&call.primitive),
-                    lever(&expansion, &prediction.polygons, &status.features),
-                ),
-                polygons: prediction.polygons,
-                expansion,
-            });
-        }
+        let Some(prediction) = predict::predict(&call.primitive, &arguments)? else {
+            trace.blank(rule, &expansion.key, Nothing::NoFace);
+            continue;
+        };
+        offers.push(Offer {
+            uncertainty: (
+                strength(&call.primitive),
+                lever(&expansion, &prediction.polygons, &status.features),
+            ),
+            polygons: prediction.polygons,
+            expansion,
+        });
     }
     Ok(offers)
 }
@@ -211,6 +226,7 @@ fn replace<W: World + ?Sized>(
     status: &mut Status,
     knowledge: &Knowledge,
     world: &W,
+    trace: &mut Trace,
 ) {
     let mut before = std::mem::take(&mut status.features[id.index()].predicted);
     for (key, offers) in open {
@@ -226,7 +242,14 @@ fn replace<W: World + ?Sized>(
                 envelope: knowledge.envelope(id, best.expansion.rule),
                 ..kept
             }),
-            None => place(id, best, by, status, knowledge, world),
+            None => {
+                let rule = best.expansion.rule;
+                let placed = place(id, best, by, status, knowledge, world);
+                if placed.is_none() {
+                    trace.blank(rule, &key, Nothing::Outside);
+                }
+                placed
+            }
         };
         if let Some(predicted) = predicted {
             status.features[id.index()].predicted.insert(key, predicted);

@@ -15,8 +15,9 @@ use super::instances::{self, Detection, Finding, Matching};
 use super::knowledge::Knowledge;
 use super::predictions;
 use super::status::{Contradiction, Status};
+use super::trace::{Proof, Trace};
 use super::world::World;
-use crate::detect::Measurement;
+use crate::detect::{Account, Condition, Measurement};
 use crate::geometry::Point;
 use crate::primitives::Arguments;
 use crate::rules::{BadArgument, FeatureId, FeatureKind, Rule};
@@ -27,22 +28,30 @@ pub trait Proofs {
     ///
     /// # Errors
     /// The arguments are not what the primitives need.
-    fn find(&self, rule: &Rule, detect: &Arguments, measure: &Arguments) -> Result<Vec<Finding>, BadArgument>;
+    fn find(&self, rule: &Rule, detect: &Arguments, measure: &Arguments) -> Result<Proof, BadArgument>;
 
     /// Whether enough of a shell's predicted surface (voxel centres) was
-    /// measured in all views.
+    /// measured in all views: the condition that proves it.
     ///
     /// # Errors
     /// The arguments are not what the primitive needs.
-    fn shell(&self, rule: &Rule, detect: &Arguments, predicted: &[Point], near: f64) -> Result<bool, BadArgument>;
+    fn shell(&self, rule: &Rule, detect: &Arguments, predicted: &[Point], near: f64) -> Result<Condition, BadArgument>;
 }
 
 /// Calls that were made on the current measurement; each is made once.
 #[derive(Default)]
-struct Tried(Vec<(FeatureId, String, Arguments)>);
+struct Tried(Vec<TriedCall>);
+
+/// A call, and the rule that made it first.
+struct TriedCall {
+    consequent: FeatureId,
+    primitive: String,
+    arguments: Arguments,
+    rule: usize,
+}
 
 /// Draws every conclusion from a measurement that is in the world by now and
-/// whose view is the last in `status.visited`.
+/// whose view is the last in `status.visited`, and tells how it went.
 ///
 /// # Errors
 /// A rule's arguments do not fit together.
@@ -51,20 +60,20 @@ pub fn conclude<W: World + ?Sized>(
     knowledge: &Knowledge,
     world: &W,
     proofs: &dyn Proofs,
-) -> Result<(), PlanError> {
-    let mut tried = Tried::default();
+) -> Result<Trace, PlanError> {
+    let (mut tried, mut trace) = (Tried::default(), Trace::default());
     loop {
-        let mut changed = detect(status, knowledge, proofs, &mut tried)?;
+        let mut changed = detect(status, knowledge, proofs, &mut tried, &mut trace)?;
         changed |= reason(status, knowledge);
-        predictions::refresh(status, knowledge, world)?;
-        changed |= prove_shells(status, knowledge, proofs)?;
-        changed |= rule_out(status, knowledge);
+        predictions::refresh(status, knowledge, world, &mut trace)?;
+        changed |= prove_shells(status, knowledge, proofs, &mut trace)?;
+        changed |= rule_out(status, knowledge, &mut trace);
         if !changed {
             break;
         }
     }
     status.weigh(knowledge);
-    Ok(())
+    Ok(trace)
 }
 
 /// Eq. 1: runs the rules that can be run and have not been. Definite rules
@@ -74,6 +83,7 @@ fn detect(
     knowledge: &Knowledge,
     proofs: &dyn Proofs,
     tried: &mut Tried,
+    trace: &mut Trace,
 ) -> Result<bool, PlanError> {
     let rules = &knowledge.library.rules;
     let definite = (0..rules.len()).filter(|k| rules[*k].antecedents.is_empty());
@@ -81,7 +91,7 @@ fn detect(
     let mut changed = false;
     for k in definite.chain(others) {
         if knowledge.library.feature(rules[k].consequent).kind != FeatureKind::Shell {
-            changed |= run(k, status, knowledge, proofs, tried).map_err(|source| PlanError::Rule {
+            changed |= run(k, status, knowledge, proofs, tried, trace).map_err(|source| PlanError::Rule {
                 rule: rules[k].id.clone(),
                 source,
             })?;
@@ -97,6 +107,7 @@ fn run(
     knowledge: &Knowledge,
     proofs: &dyn Proofs,
     tried: &mut Tried,
+    trace: &mut Trace,
 ) -> Result<bool, BadArgument> {
     let rule = &knowledge.library.rules[k];
     let detected = |id: &FeatureId| status.feature(*id).state == Existence::Detected;
@@ -104,23 +115,42 @@ fn run(
         return Ok(false);
     }
     let mut changed = false;
+    trace.runs_anew(k);
     for expansion in expansions(k, knowledge, &status.features)? {
         if !is_wanted(rule, &expansion, status, knowledge) {
             continue;
         }
-        let (Some(detect), Some(measure)) = (
-            expansion.arguments(&rule.detect, &status.features)?,
-            expansion.arguments(&rule.measure, &status.features)?,
-        ) else {
+        let mut arguments = |name, call| {
+            let known = expansion.arguments(call, &status.features)?;
+            if known.is_none() {
+                trace.waits(k, name);
+            }
+            Ok(known)
+        };
+        let (Some(detect), Some(measure)) = (arguments("detect", &rule.detect)?, arguments("measure", &rule.measure)?)
+        else {
             continue;
         };
-        if tried.first_time(rule, &detect) {
-            let findings = proofs.find(rule, &detect, &measure)?;
-            changed |= !findings.is_empty();
-            take(findings, rule, &expansion, &measure, status, knowledge);
+        if let Err(first) = tried.first_time(k, rule, &detect) {
+            trace.asked_again(first, k, &rule.id);
+            continue;
         }
+        let proof = proofs.find(rule, &detect, &measure)?;
+        let found = proof.findings.len();
+        if found > 0 || is_open(rule, status, knowledge) {
+            trace.tried(k, &expansion.key, &proof.account, found);
+        }
+        changed |= found > 0;
+        take(proof.findings, rule, &expansion, &measure, status, knowledge);
     }
     Ok(changed)
+}
+
+/// Whether it matters that a rule finds nothing: its feature is not found yet,
+/// or may have more instances where the rule looks.
+fn is_open(rule: &Rule, status: &Status, knowledge: &Knowledge) -> bool {
+    let further = knowledge.library.feature(rule.consequent).many && !rule.antecedents.is_empty();
+    status.feature(rule.consequent).state.is_open() || further
 }
 
 /// A rule with antecedents is for what is not yet found ("the rule can only be
@@ -141,14 +171,8 @@ fn take(
     status: &mut Status,
     knowledge: &Knowledge,
 ) {
-    let many = knowledge.library.feature(rule.consequent).many;
-    let matching = Matching {
-        many,
-        near: knowledge.criteria.near,
-        moved: knowledge.task.space.voxel / 2.0,
-        reach: knowledge.task.space.size.norm() / 2.0,
-    };
-    let pin = (many && !rule.antecedents.is_empty()).then(|| Pin {
+    let matching = matching(rule.consequent, knowledge);
+    let pin = (matching.many && !rule.antecedents.is_empty()).then(|| Pin {
         key: expansion.key.clone(),
         revisions: expansion.revisions.clone(),
     });
@@ -161,6 +185,16 @@ fn take(
         let feature = &mut status.features[rule.consequent.index()];
         instances::take(feature, detection, &matching, &mut status.next_revision);
         status.decide(rule.consequent, Existence::Detected);
+    }
+}
+
+/// How the instances of a feature are told apart.
+pub(super) fn matching(feature: FeatureId, knowledge: &Knowledge) -> Matching {
+    Matching {
+        many: knowledge.library.feature(feature).many,
+        near: knowledge.criteria.near,
+        moved: knowledge.task.space.voxel / 2.0,
+        reach: knowledge.task.space.size.norm() / 2.0,
     }
 }
 
@@ -205,7 +239,12 @@ fn culprit(status: &Status, knowledge: &Knowledge) -> Option<Contradiction> {
 }
 
 /// Eq. 1 for shells: proven when enough of their predicted surface was measured.
-fn prove_shells(status: &mut Status, knowledge: &Knowledge, proofs: &dyn Proofs) -> Result<bool, PlanError> {
+fn prove_shells(
+    status: &mut Status,
+    knowledge: &Knowledge,
+    proofs: &dyn Proofs,
+    trace: &mut Trace,
+) -> Result<bool, PlanError> {
     let library = &knowledge.library;
     let mut changed = false;
     for id in library
@@ -215,7 +254,7 @@ fn prove_shells(status: &mut Status, knowledge: &Knowledge, proofs: &dyn Proofs)
         if !status.feature(id).state.is_open() {
             continue;
         }
-        let proven = proven_shell(id, status, knowledge, proofs)?;
+        let proven = proven_shell(id, status, knowledge, proofs, trace)?;
         if let Some((key, found)) = proven {
             let feature = &mut status.features[id.index()];
             feature.predicted.remove(&key);
@@ -237,6 +276,7 @@ fn proven_shell(
     status: &Status,
     knowledge: &Knowledge,
     proofs: &dyn Proofs,
+    trace: &mut Trace,
 ) -> Result<Option<(String, Found)>, PlanError> {
     for (key, predicted) in &status.feature(id).predicted {
         let rule = &knowledge.library.rules[predicted.rule];
@@ -248,7 +288,11 @@ fn proven_shell(
         let arguments = shell_arguments(predicted.rule, key, status, knowledge).map_err(wrong)?;
         let near = knowledge.criteria.near;
         let Some(arguments) = arguments else { continue };
-        if proofs.shell(rule, &arguments, &centres, near).map_err(wrong)? {
+        let seen = proofs.shell(rule, &arguments, &centres, near).map_err(wrong)?;
+        let proven = seen.holds;
+        let account = Account::single(centres.len(), seen);
+        trace.tried(predicted.rule, key, &account, proven.into());
+        if proven {
             let measurement = Measurement::Shell(predicted.polygons.clone());
             return Ok(Some((
                 key.clone(),
@@ -284,7 +328,7 @@ fn shell_arguments(
 /// Eq. 3: what was inspected and not found is not there. From state 2 that
 /// contradicts the library where a definite rule could have found it; else the
 /// feature stays in state 2 and weighs nothing.
-fn rule_out(status: &mut Status, knowledge: &Knowledge) -> bool {
+fn rule_out(status: &mut Status, knowledge: &Knowledge, trace: &mut Trace) -> bool {
     let mut changed = false;
     for id in knowledge.library.feature_ids() {
         let feature = status.feature(id);
@@ -296,6 +340,7 @@ fn rule_out(status: &mut Status, knowledge: &Knowledge) -> bool {
             Existence::Present => status.contradict(id),
             _ => {}
         }
+        trace.ruled_out(id, status, &knowledge.library);
         status.features[id.index()].predicted.clear();
         status.decide(id, Existence::Absent);
         changed = true;
@@ -305,7 +350,7 @@ fn rule_out(status: &mut Status, knowledge: &Knowledge) -> bool {
 
 impl Status {
     /// Makes a state final by detection.
-    fn decide(&mut self, id: FeatureId, state: Existence) {
+    pub(super) fn decide(&mut self, id: FeatureId, state: Existence) {
         let feature = &mut self.features[id.index()];
         if feature.state.is_open() {
             feature.state = state;
@@ -323,13 +368,21 @@ impl Status {
 }
 
 impl Tried {
-    /// Whether a detector has not yet been run with these arguments for this feature.
-    fn first_time(&mut self, rule: &Rule, detect: &Arguments) -> bool {
-        let call = (rule.consequent, rule.detect.primitive.clone(), detect.clone());
-        let first = !self.0.contains(&call);
-        if first {
-            self.0.push(call);
+    /// Whether a detector has not yet been run with these arguments for this
+    /// feature; else the rule that ran it.
+    fn first_time(&mut self, index: usize, rule: &Rule, detect: &Arguments) -> Result<(), usize> {
+        let same = |t: &&TriedCall| {
+            t.consequent == rule.consequent && t.primitive == rule.detect.primitive && t.arguments == *detect
+        };
+        if let Some(first) = self.0.iter().find(same) {
+            return Err(first.rule);
         }
-        first
+        self.0.push(TriedCall {
+            consequent: rule.consequent,
+            primitive: rule.detect.primitive.clone(),
+            arguments: detect.clone(),
+            rule: index,
+        });
+        Ok(())
     }
 }

@@ -5,7 +5,10 @@ use super::features::{Existence, FeatureStatus};
 use super::knowledge::Knowledge;
 use super::score::Target;
 use super::status::Status;
+use super::trace::{Absence, RuleTrace};
+use crate::detect::Condition;
 use crate::map::Counts;
+use crate::rules::{Goal, Library};
 
 /// What changed with a measurement.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +27,10 @@ pub struct Update {
     pub voxels: Counts,
     /// s_cmp.
     pub completion: Completion,
+    /// What rules did of which the statuses do not tell, by id in the library's order.
+    pub rules: Vec<(String, RuleTrace)>,
+    /// How features came to count as absent, by name in the library's order.
+    pub absent: Vec<(String, Absence)>,
 }
 
 /// A feature's status.
@@ -54,6 +61,8 @@ pub struct InstanceReport {
     pub predicted_voxels: usize,
     /// Ids of the rules that predict it.
     pub predicted_by: Vec<String>,
+    /// Id of the one whose prediction counts.
+    pub rule: Option<String>,
 }
 
 /// What to do next.
@@ -68,14 +77,27 @@ pub enum Decision {
 /// The next best view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Next {
+    /// The view.
+    pub chosen: Standing,
+    /// Whether every view with gain failed the overlap constraint.
+    pub relaxed: bool,
+    /// A few that it was preferred to, best first.
+    pub runners_up: Vec<Standing>,
+}
+
+/// How a candidate view stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Standing {
     /// Its index.
     pub view: usize,
     /// Its value (eq. 8); 0 for the first view.
     pub score: f64,
     /// The terms of eq. 8.
     pub terms: Terms,
-    /// Whether every view with gain failed the overlap constraint.
-    pub relaxed: bool,
+    /// The share that G_ovlp judges, where the method asks for it.
+    pub share: Option<f64>,
+    /// From the view before, metres: it breaks ties.
+    pub distance: f64,
     /// The instance that G_fd comes from.
     pub target: Option<TargetName>,
 }
@@ -100,6 +122,10 @@ pub struct TargetName {
     pub feature: String,
     /// The instance's key.
     pub key: String,
+    /// Its voxels that the view reaches and that are not yet inspected.
+    pub reached: usize,
+    /// |PV_ij|.
+    pub voxels: usize,
 }
 
 /// How a run ended.
@@ -113,6 +139,10 @@ pub struct End {
     pub confidence: f64,
     /// What the library cannot explain.
     pub contradiction: Option<ContradictionReport>,
+    /// What was asked for.
+    pub goal: Goal,
+    /// What a run can end by, and which of it holds.
+    pub because: Vec<Condition>,
 }
 
 /// What a library cannot explain.
@@ -134,19 +164,20 @@ pub fn features(status: &Status, knowledge: &Knowledge) -> Vec<FeatureReport> {
             state: feature.state,
             predicted: feature.is_predicted(),
             weight: status.weights[id.index()],
-            instances: instances(feature),
+            instances: instances(feature, library),
         }
     };
     library.feature_ids().map(report).collect()
 }
 
-fn instances(feature: &FeatureStatus) -> Vec<InstanceReport> {
+fn instances(feature: &FeatureStatus, library: &Library) -> Vec<InstanceReport> {
     let measured = feature.found.iter().map(|found| InstanceReport {
         key: found.key.clone(),
         state: Existence::Detected,
         inspected: 1.0,
         predicted_voxels: 0,
         predicted_by: Vec::new(),
+        rule: None,
     });
     let open = if feature.state.is_open() {
         feature.state
@@ -159,6 +190,7 @@ fn instances(feature: &FeatureStatus) -> Vec<InstanceReport> {
         inspected: p.share(),
         predicted_voxels: p.voxels.len(),
         predicted_by: p.by.clone(),
+        rule: library.rules.get(p.rule).map(|r| r.id.clone()),
     });
     measured.chain(predicted).collect()
 }
@@ -187,6 +219,8 @@ pub fn end(outcome: Outcome, completion: Completion, status: &Status, knowledge:
             feature: library.feature(c.feature).name.clone(),
             evidence: c.evidence.clone(),
         }),
+        goal: knowledge.task.goal,
+        because: Vec::new(),
     }
 }
 
@@ -195,5 +229,7 @@ pub fn named(target: &Target, knowledge: &Knowledge) -> TargetName {
     TargetName {
         feature: knowledge.library.feature(target.feature).name.clone(),
         key: target.key.clone(),
+        reached: target.reached,
+        voxels: target.voxels,
     }
 }

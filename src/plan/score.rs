@@ -24,6 +24,10 @@ pub struct Target {
     pub feature: FeatureId,
     /// The instance's key.
     pub key: String,
+    /// Its voxels that the view reaches and that are not yet inspected.
+    pub reached: usize,
+    /// |PV_ij|.
+    pub voxels: usize,
 }
 
 /// G_fd of a view.
@@ -33,6 +37,9 @@ pub struct FeatureGain {
     pub bits: f64,
     /// Where they come from: the first of the largest, in feature and key order.
     pub target: Option<Target>,
+    /// The largest gain that does not count: below the floor, or of a feature
+    /// that must be seen whole and is not.
+    pub uncounted: Option<Target>,
 }
 
 /// The gains of all unvisited views, in their order.
@@ -46,6 +53,8 @@ pub struct Gains {
     pub w: bool,
     /// G_so of each after the gain floor; all 0 where W is 0 and it does not matter.
     pub surface: Vec<u64>,
+    /// The largest G_so before the gain floor; 0 where W is 0.
+    pub most_surface: usize,
 }
 
 impl Gains {
@@ -58,6 +67,12 @@ impl Gains {
     /// s_ail (eq. 11): no unvisited view gains anything.
     pub fn exhausted(&self) -> bool {
         (0..self.views.len()).all(|k| self.total(k) <= 0.0)
+    }
+
+    /// The gain of a feature that comes nearest to counting while none does.
+    pub fn most_uncounted(&self) -> Option<&Target> {
+        let all = self.feature.iter().filter_map(|g| g.uncounted.as_ref());
+        all.reduce(|most, next| if next.reached > most.reached { next } else { most })
     }
 }
 
@@ -72,9 +87,9 @@ pub fn gains<W: World + ?Sized>(
     let each = || unvisited.par_iter().map(|v| &candidates[*v]);
     let feature: Vec<FeatureGain> = each().map(|v| feature_gain(world, v, status, knowledge)).collect();
     let w = feature.iter().all(|g| g.bits <= 0.0);
-    let surface = if w {
+    let seen: Vec<usize> = if w {
         let rear = world.rear_side();
-        each().map(|v| surface_gain(world, v, &rear, knowledge)).collect()
+        each().map(|v| reachable_plain(world, v, &rear, 0.0)).collect()
     } else {
         vec![0; unvisited.len()]
     };
@@ -82,7 +97,8 @@ pub fn gains<W: World + ?Sized>(
         views: unvisited.to_vec(),
         feature,
         w,
-        surface,
+        most_surface: seen.iter().copied().max().unwrap_or(0),
+        surface: seen.into_iter().map(|n| floored(n, knowledge)).collect(),
     }
 }
 
@@ -100,16 +116,38 @@ pub fn feature_gain<W: World + ?Sized>(
             continue;
         }
         for (key, predicted) in &status.feature(id).predicted {
-            let n = reachable_count(world, view, predicted, knowledge);
+            let reach = reach(world, view, predicted, knowledge);
+            let target = || Target {
+                feature: id,
+                key: key.clone(),
+                reached: reach.open,
+                voxels: predicted.voxels.len(),
+            };
+            let n = reach.counted(knowledge);
             let bits = weight * n as f64 / predicted.voxels.len() as f64;
             if bits > best.bits {
-                let key = key.clone();
-                let target = Some(Target { feature: id, key });
-                best = FeatureGain { bits, target };
+                (best.bits, best.target) = (bits, Some(target()));
+            }
+            if n == 0 && reach.open > best.uncounted.as_ref().map_or(0, |t| t.reached) {
+                best.uncounted = Some(target());
             }
         }
     }
     best
+}
+
+/// What a view reaches of a predicted instance.
+struct Reach {
+    /// Reachable voxels that are not yet inspected.
+    open: usize,
+    /// Whether the look would count.
+    enough: bool,
+}
+
+impl Reach {
+    fn counted(&self, knowledge: &Knowledge) -> u64 {
+        if self.enough { floored(self.open, knowledge) } else { 0 }
+    }
 }
 
 /// n_ij(v) after the gain floor: the not yet inspected voxels of PV_ij that are
@@ -121,17 +159,20 @@ pub fn reachable_count<W: World + ?Sized>(
     predicted: &Predicted,
     knowledge: &Knowledge,
 ) -> u64 {
+    reach(world, view, predicted, knowledge).counted(knowledge)
+}
+
+fn reach<W: World + ?Sized>(world: &W, view: &Viewpoint, predicted: &Predicted, knowledge: &Knowledge) -> Reach {
     let whole = predicted.envelope.whole;
     let open = |k: usize| !predicted.inspected[k];
     let (near, absent) = (knowledge.criteria.near, knowledge.criteria.absent);
     let wanted = |k| whole || open(k);
     let reached = reachable(world, view, &predicted.voxels, &predicted.envelope, near, wanted);
     let all = reached.iter().filter(|r| **r).count();
-    if whole && !reaches(all, predicted.voxels.len(), absent) {
-        return 0;
+    Reach {
+        open: reached.iter().enumerate().filter(|(k, r)| **r && open(*k)).count(),
+        enough: !whole || reaches(all, predicted.voxels.len(), absent),
     }
-    let n = reached.iter().enumerate().filter(|(k, r)| **r && open(*k)).count();
-    floored(n, knowledge)
 }
 
 /// G_so(v) after the gain floor: reachable rear-side voxels.

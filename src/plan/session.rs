@@ -9,17 +9,18 @@ use std::collections::BTreeSet;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-use super::completion::{self, Completion};
+use super::completion::{self, Completion, Outcome};
 use super::error::PlanError;
 use super::instances::Finding;
 use super::knowledge::Knowledge;
-use super::methods::{self, Method, Situation};
+use super::methods::{self, Method, Rank, Situation};
 use super::reasoning::{self, Proofs};
-use super::report::{self, Decision, Next, Terms, Update};
+use super::report::{self, Decision, Next, Standing, Terms, Update};
 use super::score::{self, Gains};
 use super::status::Status;
+use super::trace::{Proof, Trace};
 use super::viewpoint::Viewpoint;
-use crate::detect::{self, Scan};
+use crate::detect::{self, Condition, Scan};
 use crate::geometry::{Point, Pose};
 use crate::map::{Map, Tag};
 use crate::primitives::{Arguments, poses};
@@ -172,7 +173,7 @@ impl Session {
         let pose = &observation.world_from_camera;
         self.status.visited.push(Viewpoint::new(observation.camera, pose));
         ended(Phase::Map);
-        self.reason(observation)?;
+        let trace = self.reason(observation)?;
         ended(Phase::Detect);
         let completion = self.decide();
         ended(Phase::Score);
@@ -184,6 +185,8 @@ impl Session {
             classes: report::classes(&self.status, &self.knowledge),
             voxels: self.map.counts(),
             completion,
+            rules: trace.rules(&self.knowledge.library),
+            absent: trace.absent(&self.knowledge.library),
         })
     }
 
@@ -200,15 +203,15 @@ impl Session {
         usable(observation).map_err(PlanError::BadObservation)
     }
 
-    fn reason(&mut self, observation: &Observation) -> Result<(), PlanError> {
+    fn reason(&mut self, observation: &Observation) -> Result<Trace, PlanError> {
         let scan = Scan::new(observation, &self.knowledge.task.space);
         let proofs = Measured {
             scan: &scan,
             map: &self.map,
         };
-        reasoning::conclude(&mut self.status, &self.knowledge, &self.map, &proofs)?;
+        let trace = reasoning::conclude(&mut self.status, &self.knowledge, &self.map, &proofs)?;
         self.retag();
-        Ok(())
+        Ok(trace)
     }
 
     /// Brings the map's tags in line with the predictions. A replaced
@@ -239,10 +242,16 @@ impl Session {
         let views = self.status.visited.len();
         let ended = completion::outcome(completion, self.knowledge.task.goal, contradicted, views, self.limit);
         self.decision = match ended {
-            Some(outcome) => Decision::End(report::end(outcome, completion, &self.status, &self.knowledge)),
+            Some(outcome) => self.end(outcome, completion, &gains),
             None => self.choose(&gains, completion),
         };
         completion
+    }
+
+    fn end(&self, outcome: Outcome, completion: Completion, gains: &Gains) -> Decision {
+        let mut end = report::end(outcome, completion, &self.status, &self.knowledge);
+        end.because = completion::because(&self.status, &self.knowledge, gains, self.limit);
+        Decision::End(end)
     }
 
     fn choose(&mut self, gains: &Gains, completion: Completion) -> Decision {
@@ -256,23 +265,29 @@ impl Session {
             current,
         };
         let Some(choice) = self.method.choose(&situation, &mut self.random) else {
-            let outcome = completion::Outcome::Exhausted;
-            return Decision::End(report::end(outcome, completion, &self.status, &self.knowledge));
+            return self.end(Outcome::Exhausted, completion, gains);
         };
-        let view = gains.views[choice.position];
-        let gain = &gains.feature[choice.position];
         let rear = self.map.rear_side();
+        let standing = |rank: &Rank| {
+            let (view, gain) = (gains.views[rank.position], &gains.feature[rank.position]);
+            Standing {
+                view,
+                score: rank.score,
+                terms: Terms {
+                    overlap: rank.overlap,
+                    feature: gain.bits,
+                    surface: score::surface_gain(&self.map, &self.candidates[view], &rear, &self.knowledge),
+                    w: gains.w,
+                },
+                share: rank.share,
+                distance: situation.distance(rank.position),
+                target: gain.target.as_ref().map(|t| report::named(t, &self.knowledge)),
+            }
+        };
         Decision::Next(Next {
-            view,
-            score: choice.score,
-            terms: Terms {
-                overlap: choice.overlap,
-                feature: gain.bits,
-                surface: score::surface_gain(&self.map, &self.candidates[view], &rear, &self.knowledge),
-                w: gains.w,
-            },
+            chosen: standing(&choice.best),
             relaxed: choice.relaxed,
-            target: gain.target.as_ref().map(|t| report::named(t, &self.knowledge)),
+            runners_up: choice.rivals.iter().map(standing).collect(),
         })
     }
 }
@@ -285,11 +300,16 @@ fn start_of(seed: u64, count: usize) -> usize {
 
 fn first(view: usize) -> Next {
     Next {
-        view,
-        score: 0.0,
-        terms: Terms::default(),
+        chosen: Standing {
+            view,
+            score: 0.0,
+            terms: Terms::default(),
+            share: None,
+            distance: 0.0,
+            target: None,
+        },
         relaxed: false,
-        target: None,
+        runners_up: Vec::new(),
     }
 }
 
@@ -326,20 +346,21 @@ struct Measured<'a> {
 }
 
 impl Proofs for Measured<'_> {
-    fn find(&self, rule: &Rule, detect: &Arguments, measure: &Arguments) -> Result<Vec<Finding>, BadArgument> {
+    fn find(&self, rule: &Rule, detect: &Arguments, measure: &Arguments) -> Result<Proof, BadArgument> {
+        let (found, mut account) = detect::detect(&rule.detect.primitive, detect, self.scan)?;
         let mut findings = Vec::new();
-        for evidence in detect::detect(&rule.detect.primitive, detect, self.scan)? {
-            if let Some(measurement) = detect::measure(&rule.measure.primitive, measure, &evidence)? {
-                findings.push(Finding {
-                    evidence: Some(evidence),
-                    measurement,
-                });
-            }
+        for evidence in found {
+            let measurement = detect::measure(&rule.measure.primitive, measure, &evidence)?;
+            account.measured(measurement.is_some());
+            findings.extend(measurement.map(|measurement| Finding {
+                evidence: Some(evidence),
+                measurement,
+            }));
         }
-        Ok(findings)
+        Ok(Proof { findings, account })
     }
 
-    fn shell(&self, rule: &Rule, detect: &Arguments, predicted: &[Point], near: f64) -> Result<bool, BadArgument> {
+    fn shell(&self, rule: &Rule, detect: &Arguments, predicted: &[Point], near: f64) -> Result<Condition, BadArgument> {
         detect::shell_proven(&rule.detect.primitive, detect, predicted, self.map, near)
     }
 }

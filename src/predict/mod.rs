@@ -6,15 +6,17 @@
 
 mod behind;
 mod completed_square;
+mod face;
 mod prism_over;
 mod pyramid_over;
+mod rectangle_by_marker;
 mod rectangle_on;
 mod rigid_marker;
 mod triangle_to;
 
-use crate::geometry::{Point, Polygon};
-use crate::primitives::Arguments;
-use crate::rules::BadArgument;
+use crate::geometry::Polygon;
+use crate::primitives::{Arguments, Datum};
+use crate::rules::{BadArgument, Value};
 
 /// Where a feature must be: polygons in world axes, metres, normals outward.
 ///
@@ -26,10 +28,11 @@ pub struct Prediction {
 }
 
 type Predictor = fn(&Arguments) -> Result<Option<Prediction>, BadArgument>;
-type PointOf = fn(&Arguments) -> Result<Option<Point>, BadArgument>;
+type ValueOf = fn(&Arguments) -> Result<Option<Datum>, BadArgument>;
 
 const PREDICTORS: &[(&str, Predictor)] = &[
     ("rectangle_on", rectangle_on::predict),
+    ("rectangle_by_marker", rectangle_by_marker::predict),
     ("triangle_to", triangle_to::predict),
     ("completed_square", completed_square::predict),
     ("prism_over", prism_over::predict),
@@ -37,7 +40,13 @@ const PREDICTORS: &[(&str, Predictor)] = &[
     ("rigid_marker", rigid_marker::predict),
 ];
 
-const POINTS: &[(&str, PointOf)] = &[("behind", behind::point)];
+const VALUES: &[(&str, ValueOf)] = &[
+    ("behind", |a| {
+        Ok(behind::point(a)?.map(|p| Datum::Constant(Value::Point(p))))
+    }),
+    ("polygon", |a| Ok(face::polygon(a)?.map(Datum::Polygon))),
+    ("edge_of", |a| Ok(face::edge(a)?.map(Datum::Edge))),
+];
 
 /// pred(): the place of a rule's consequent; `None` where the arguments are degenerate.
 ///
@@ -50,14 +59,17 @@ pub fn predict(primitive: &str, arguments: &Arguments) -> Result<Option<Predicti
     }
 }
 
-/// The point that a point primitive gives; `None` where the arguments are degenerate.
+/// The point, face or edge that a primitive gives; `None` where the arguments are degenerate.
 ///
 /// # Errors
-/// `primitive` gives no point, or an argument is missing or of another kind.
-pub fn point(primitive: &str, arguments: &Arguments) -> Result<Option<Point>, BadArgument> {
-    match POINTS.iter().find(|(name, _)| *name == primitive) {
+/// `primitive` gives none of these, or an argument is missing or of another kind.
+pub fn value(primitive: &str, arguments: &Arguments) -> Result<Option<Datum>, BadArgument> {
+    match VALUES.iter().find(|(name, _)| *name == primitive) {
         Some((_, function)) => function(arguments),
-        None => Err(BadArgument::new(primitive, "a primitive that gives a point")),
+        None => Err(BadArgument::new(
+            primitive,
+            "a primitive that gives a point, a face or an edge",
+        )),
     }
 }
 
@@ -78,17 +90,21 @@ mod tests {
     use crate::primitives::{Type, all};
 
     #[test]
-    fn every_declared_predictor_and_point_has_one_function() {
-        let declared = |ty: Type| -> Vec<&str> { all().filter(|p| p.result == ty).map(|p| p.name).collect() };
+    fn every_declared_predictor_and_value_has_one_function() {
+        let of =
+            |types: &[Type]| -> Vec<&str> { all().filter(|p| types.contains(&p.result)).map(|p| p.name).collect() };
         let predictors: Vec<&str> = PREDICTORS.iter().map(|(name, _)| *name).collect();
-        let points: Vec<&str> = POINTS.iter().map(|(name, _)| *name).collect();
-        assert_eq!(predictors, declared(Type::Predictor));
-        assert_eq!(points, declared(Type::Point));
+        let values: Vec<&str> = VALUES.iter().map(|(name, _)| *name).collect();
+        assert_eq!(predictors, of(&[Type::Predictor]));
+        assert_eq!(values, of(&[Type::Point, Type::Polygon, Type::Edge]));
     }
 
     #[test]
     fn a_missing_argument_is_an_error_and_no_panic() {
         for (name, function) in PREDICTORS {
+            assert!(function(&Arguments::default()).is_err(), "`{name}`");
+        }
+        for (name, function) in VALUES {
             assert!(function(&Arguments::default()).is_err(), "`{name}`");
         }
         assert!(predict("outline", &Arguments::default()).is_err());

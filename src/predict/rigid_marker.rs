@@ -1,7 +1,7 @@
 //! Strong: a marker that a rigid layout ties to a detected one.
 
 use super::{Prediction, positive};
-use crate::geometry::{Point, Polygon, Pose};
+use crate::geometry::{Polygon, Pose};
 use crate::primitives::Arguments;
 use crate::rules::BadArgument;
 
@@ -15,19 +15,14 @@ pub(super) fn predict(arguments: &Arguments) -> Result<Option<Prediction>, BadAr
 /// The square of edge `size` about a marker's origin, facing its +z: lower
 /// left, lower right, upper right, upper left as one looks at the print.
 pub(crate) fn plate(world_from_marker: &Pose, size: f64) -> Option<Polygon> {
-    if !positive(size) {
-        return None;
-    }
-    let half = size / 2.0;
-    let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
-    Polygon::new(corners.map(|(x, y)| world_from_marker * Point::new(x, y, 0.0)).to_vec())
+    positive(size).then(|| Polygon::square(world_from_marker, size))?
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::fixtures::{arguments, length};
     use super::*;
-    use crate::geometry::{Vector, frame_facing};
+    use crate::geometry::{Point, Vector, frame_facing};
     use crate::primitives::Datum;
     use crate::rules::Value;
 

@@ -46,6 +46,14 @@ impl Arguments {
         })
     }
 
+    /// A whole number.
+    pub fn count(&self, name: &str) -> Result<u64, BadArgument> {
+        self.read(name, "a whole number", |d| match d {
+            Datum::Constant(Value::Count(n)) => Some(*n),
+            _ => None,
+        })
+    }
+
     /// A share, 0 to 1.
     pub fn share(&self, name: &str) -> Result<f64, BadArgument> {
         self.read(name, "a share", |d| match d {

@@ -7,8 +7,10 @@
 mod arguments;
 mod attributes;
 mod cameras;
+pub mod colours;
 mod detectors;
 mod extents;
+mod faces;
 mod measures;
 mod points;
 mod predictors;
@@ -21,6 +23,7 @@ pub use attributes::{Attribute, attributes};
 pub use cameras::camera;
 pub use detectors::{Envelope, ImageKind, QR_SIZE_WITHIN, envelope, printed_edge};
 pub use extents::extremes;
+pub use faces::MOST_CORNERS;
 pub use predictors::{Strength, strength};
 pub use reference::reference;
 pub use views::{MOST_VIEWS, poses};
@@ -154,6 +157,7 @@ pub fn all() -> impl Iterator<Item = &'static Primitive> {
         measures::ALL,
         predictors::ALL,
         points::ALL,
+        faces::ALL,
         views::ALL,
         cameras::ALL,
         shapes::ALL,

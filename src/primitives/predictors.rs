@@ -20,6 +20,31 @@ pub(super) const ALL: &[Primitive] = &[
         doc: "Strong: a rectangle on a common edge at a dihedral angle.",
     },
     Primitive {
+        name: "rectangle_by_marker",
+        result: Type::Predictor,
+        features: &[FeatureKind::Polygon],
+        parameters: &[
+            Parameter::required("marker", Type::Pose, "Pose of a detected marker, like `label.pose`."),
+            Parameter::required(
+                "at",
+                Type::Point,
+                "Centre of the face in the marker's axes: x right and y up on the print, z out of it.",
+            ),
+            Parameter::required(
+                "facing",
+                Type::Direction,
+                "Which way the face looks, in the marker's axes.",
+            ),
+            Parameter::required(
+                "width",
+                Type::Length,
+                "Its horizontal extent as one looks at it with the marker's y up, its z where it looks along y.",
+            ),
+            Parameter::required("height", Type::Length, "Its other extent."),
+        ],
+        doc: "Strong: a rectangular face whose place on the object a marker tells.",
+    },
+    Primitive {
         name: "triangle_to",
         result: Type::Predictor,
         features: &[FeatureKind::Polygon],

@@ -8,8 +8,12 @@ use super::{Library, Scene, Task};
 /// The version of the rule-set format that this build writes and reads.
 pub const FORMAT: u32 = 1;
 
+/// The newest language edition whose rule sets this build reads.
+pub const LANGUAGE: u32 = 1;
+
 /// A compiled VPL program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RuleSet {
     /// Version of this format.
@@ -28,6 +32,7 @@ pub struct RuleSet {
 
 /// A source file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Source {
     /// The file's name for the main file, its module path for others (`std/views.vpl`).
@@ -38,6 +43,7 @@ pub struct Source {
 
 /// A span of a source file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Place {
     /// Index into [`RuleSet::sources`].
@@ -55,10 +61,18 @@ pub struct Place {
 /// Why a rule set could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
-    /// It was written by a newer compiler.
-    #[error("the rule set has format {found}, and this program reads up to {FORMAT}; compile it again or update vpl")]
-    Newer {
+    /// It was written by a compiler of another format.
+    #[error(
+        "the rule set has format {found}, and this vpl reads format {FORMAT}: compile the program again, or update vpl"
+    )]
+    Format {
         /// The version found.
+        found: u64,
+    },
+    /// Its program is of a newer edition of the language.
+    #[error("the rule set is of VPL edition {found}, which this vpl does not know: update vpl")]
+    Language {
+        /// The edition found.
         found: u64,
     },
     /// It is not a rule set.
@@ -84,10 +98,13 @@ impl RuleSet {
     /// Malformed JSON, a newer format, or indices that point nowhere.
     pub fn from_json(text: &str) -> Result<Self, ReadError> {
         let value: serde_json::Value = serde_json::from_str(text)?;
-        if let Some(found) = value.get("format").and_then(serde_json::Value::as_u64)
-            && found > u64::from(FORMAT)
-        {
-            return Err(ReadError::Newer { found });
+        // The versions first: what a newer one holds must not be called malformed.
+        let version = |key: &str| value.get(key).and_then(serde_json::Value::as_u64);
+        if let Some(found) = version("format").filter(|found| *found != u64::from(FORMAT)) {
+            return Err(ReadError::Format { found });
+        }
+        if let Some(found) = version("language").filter(|found| *found > u64::from(LANGUAGE)) {
+            return Err(ReadError::Language { found });
         }
         let rules: Self = serde_json::from_value(value)?;
         rules.validate()?;
@@ -121,4 +138,28 @@ impl RuleSet {
 /// Lower-case hexadecimal.
 pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().map(|b| format!("{b:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(head: &str) -> Result<RuleSet, ReadError> {
+        RuleSet::from_json(&format!(
+            "{{{head}, \"sources\": [], \"libraries\": [], \"tasks\": [], \"scenes\": []}}"
+        ))
+    }
+
+    #[test]
+    fn other_formats_and_newer_editions_are_refused_by_name() {
+        assert!(of(r#""format": 1, "language": 1"#).is_ok());
+        let said = |head: &str| of(head).unwrap_err().to_string();
+        assert!(
+            said(r#""format": 2, "language": 1, "news": {}"#).contains("has format 2, and this vpl reads format 1")
+        );
+        assert!(said(r#""format": 0, "language": 1"#).contains("has format 0"));
+        assert!(said(r#""format": 1, "language": 2, "news": {}"#).contains("VPL edition 2"));
+        assert!(said(r#""format": 1.5, "language": 1"#).starts_with("this is not a rule set"));
+        assert!(said(r#""format": 1"#).starts_with("this is not a rule set"));
+    }
 }

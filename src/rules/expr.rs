@@ -10,6 +10,7 @@ use crate::geometry::{Point, Pose, Vector};
 
 /// A primitive with all its arguments, defaults filled in.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Call {
     /// Name of the primitive, as registered in [`crate::primitives`].
@@ -21,6 +22,7 @@ pub struct Call {
 
 /// An argument: a constant, or something that is known once features are measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Expr {
     /// A constant.
@@ -55,6 +57,7 @@ pub enum Expr {
 
 /// A constant in SI units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Value {
     /// Metres.
@@ -74,17 +77,19 @@ pub enum Value {
     /// A text.
     Text(String),
     /// A unit vector, world axes.
-    Direction(Vector),
+    Direction(#[cfg_attr(test, schemars(with = "[f64; 3]"))] Vector),
     /// A point, metres.
-    Point(Point),
+    Point(#[cfg_attr(test, schemars(with = "[f64; 3]"))] Point),
     /// A pose: what it maps is said by the parameter.
-    Pose(Pose),
+    Pose(#[cfg_attr(test, schemars(with = "super::schema::Pose"))] Pose),
     /// One of a parameter's named alternatives.
     Choice(String),
 }
 
 /// An sRGB colour, written `#rrggbb` in the artefact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, schemars(extend("pattern" = "^#[0-9a-fA-F]{6}$")))]
 #[serde(into = "String", try_from = "String")]
 pub struct Colour(pub [u8; 3]);
 

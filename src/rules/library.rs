@@ -8,6 +8,7 @@ use super::{Call, Place};
 
 /// Prior information about the objects that a task may meet.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Library {
     /// Name.
@@ -25,6 +26,7 @@ pub struct Library {
 
 /// Index of a feature in its library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub struct FeatureId(pub u32);
 
@@ -37,6 +39,7 @@ impl FeatureId {
 
 /// A feature f_i.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Feature {
     /// Full name, e.g. `bottom` or `code[1]`.
@@ -51,6 +54,7 @@ pub struct Feature {
 
 /// The type of a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FeatureKind {
     /// A planar local surface.
@@ -73,6 +77,7 @@ impl fmt::Display for FeatureKind {
 
 /// A candidate class.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Class {
     /// Name.
@@ -87,6 +92,8 @@ pub struct Class {
 
 /// A presence vector, written like the paper's: `1010111`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[cfg_attr(test, schemars(extend("pattern" = "^[01]*$")))]
 #[serde(into = "String", try_from = "String")]
 pub struct Presence(pub Vec<bool>);
 
@@ -120,6 +127,7 @@ impl TryFrom<String> for Presence {
 
 /// rule_k : { S_ant → f_cons, proof, cal, pred }.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Rule {
     /// `r1`, `r2`, … in the library's order.
@@ -144,6 +152,7 @@ pub struct Rule {
 
 /// `for each edge in bottom.edges`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Each {
     /// The name that arguments use.
@@ -152,6 +161,20 @@ pub struct Each {
     pub feature: FeatureId,
     /// Which list attribute (`edges`).
     pub attribute: String,
+}
+
+impl Rule {
+    /// Its head as it is written: `bottom, prism_side -> prism_shape`.
+    pub fn head(&self, library: &Library) -> String {
+        let name = |id: &FeatureId| library.feature(*id).name.as_str();
+        let antecedents: Vec<&str> = self.antecedents.iter().map(name).collect();
+        let arrow = format!("-> {}", name(&self.consequent));
+        if antecedents.is_empty() {
+            arrow
+        } else {
+            format!("{} {arrow}", antecedents.join(", "))
+        }
+    }
 }
 
 impl Library {

@@ -6,13 +6,17 @@
 
 mod artefact;
 mod expr;
+mod facts;
 mod library;
 mod scene;
+#[cfg(test)]
+mod schema;
 mod task;
 
 pub(crate) use artefact::hex;
-pub use artefact::{FORMAT, Place, ReadError, RuleSet, Source};
+pub use artefact::{FORMAT, LANGUAGE, Place, ReadError, RuleSet, Source};
 pub use expr::{BadArgument, Call, Colour, Expr, Value};
+pub use facts::{Expectation, Expected, Fact, Flag, Given, State};
 pub use library::{Class, Each, Feature, FeatureId, FeatureKind, Library, Presence, Rule};
 pub use scene::{Backdrop, Marker, Scene, SceneObject};
 #[cfg(test)]

@@ -7,6 +7,7 @@ use crate::geometry::Pose;
 
 /// Objects for the simulator and what stands behind them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Name.
@@ -21,6 +22,7 @@ pub struct Scene {
 
 /// A closed sphere about the centre of the space, seen from inside.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Backdrop {
     /// Radius, metres.
@@ -31,6 +33,7 @@ pub struct Backdrop {
 
 /// An object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SceneObject {
     /// Name; for recognition, the true class.
@@ -38,6 +41,7 @@ pub struct SceneObject {
     /// A shape primitive.
     pub shape: Call,
     /// Where it is: `world_from_object`.
+    #[cfg_attr(test, schemars(with = "super::schema::Pose"))]
     pub world_from_object: Pose,
     /// Markers on it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -48,6 +52,7 @@ pub struct SceneObject {
 
 /// A printed QR code.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Marker {
     /// The text it encodes.
@@ -56,5 +61,6 @@ pub struct Marker {
     pub size: f64,
     /// `object_from_marker`: x right and y up on the print, z out of it, the
     /// origin at the centre of the code.
+    #[cfg_attr(test, schemars(with = "super::schema::Pose"))]
     pub object_from_marker: Pose,
 }

@@ -7,6 +7,7 @@ use crate::geometry::{Bounds, Camera, Point, Vector};
 
 /// A perception task.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Task {
     /// Name.
@@ -44,6 +45,7 @@ pub struct Task {
 
 /// The parts of the completion status that must be reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Goal {
     /// s_cfd.
@@ -54,11 +56,14 @@ pub struct Goal {
 
 /// The model space: an axis-aligned box of cubic voxels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Space {
     /// Centre, metres.
+    #[cfg_attr(test, schemars(with = "[f64; 3]"))]
     pub centre: Point,
     /// Full extents, metres.
+    #[cfg_attr(test, schemars(with = "[f64; 3]"))]
     pub size: Vector,
     /// Edge of a voxel, metres.
     pub voxel: f64,
@@ -83,6 +88,7 @@ impl Space {
 
 /// ξ, ξ_ned, ξ_cfd.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Thresholds {
     /// ξ, metres.
@@ -95,6 +101,7 @@ pub struct Thresholds {
 
 /// When a predicted voxel counts as inspected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Inspected {
     /// Eq. 3 to the letter: an observed point lies within ξ.
@@ -105,6 +112,7 @@ pub enum Inspected {
 
 /// OctoMap's sensor model, in probabilities.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SensorModel {
     /// P(occupied) after one hit.

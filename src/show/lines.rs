@@ -2,14 +2,15 @@
 
 use std::fmt::Write as _;
 
-use super::log::{End, Feature, Ordered, Record, View};
+use super::log::{End, Feature, Ordered, Record, Standing, View};
+use super::why;
 
 /// Most names that a line lists.
 const LISTED: usize = 4;
 
 /// What a view showed and what comes next: what was found since `before`,
 /// which classes remain, where the camera goes and why.
-pub fn view_line(before: Option<&View>, view: &View, target: Option<&str>) -> String {
+pub fn view_line(before: Option<&View>, view: &View) -> String {
     let mut line = format!("view {:>2}  #{:<4}", view.n, view.view);
     let found = found_since(before.map(|b| &b.features), &view.features);
     let _ = write!(
@@ -23,15 +24,14 @@ pub fn view_line(before: Option<&View>, view: &View, target: Option<&str>) -> St
     );
     let _ = write!(line, "  {:<26}", remaining(&view.classes));
     match &view.next {
-        None => line.push_str("  stop"),
+        None => match &view.stop {
+            Some(stop) => {
+                let _ = write!(line, "  stop: {}", why::stop_reason(stop));
+            }
+            None => line.push_str("  stop"),
+        },
         Some(next) => {
-            let _ = write!(line, "  next #{} ", next.view);
-            let why = match target {
-                Some(target) if next.terms.feature > 0.0 => format!("for {target}, {:.2} bits", next.terms.feature),
-                _ if next.terms.w == 1 => format!("for {} unseen voxels behind the surface", next.terms.surface),
-                _ => "by the method's own measure".to_owned(),
-            };
-            line.push_str(&why);
+            let _ = write!(line, "  next #{} {}", next.chosen.view, aim(&next.chosen));
             if next.relaxed {
                 line.push_str(" (overlap relaxed)");
             }
@@ -40,8 +40,25 @@ pub fn view_line(before: Option<&View>, view: &View, target: Option<&str>) -> St
     line
 }
 
+/// What a view is taken for.
+pub(super) fn aim(view: &Standing) -> String {
+    let terms = &view.terms;
+    match &view.target {
+        Some(target) if terms.feature > 0.0 => {
+            let feature = match target.key.as_str() {
+                key if key.contains('/') => format!("{} at {key}", target.feature),
+                _ => target.feature.clone(),
+            };
+            format!("for {feature}, {:.2} bits", terms.feature)
+        }
+        None if terms.feature > 0.0 => format!("for {:.2} bits", terms.feature),
+        _ if terms.w == 1 => format!("for {} unseen voxels behind the surface", terms.surface),
+        _ => "by the method's own measure".to_owned(),
+    }
+}
+
 /// `+code[3]` detected, `-code[2]` absent, and `bottom ×4` for several instances.
-fn found_since(before: Option<&Ordered<Feature>>, now: &Ordered<Feature>) -> Vec<String> {
+pub(super) fn found_since(before: Option<&Ordered<Feature>>, now: &Ordered<Feature>) -> Vec<String> {
     let measured = |f: &Feature| f.instances.iter().filter(|i| i.state == 1).count();
     let mut found = Vec::new();
     for (k, (name, feature)) in now.0.iter().enumerate() {
@@ -64,7 +81,7 @@ fn found_since(before: Option<&Ordered<Feature>>, now: &Ordered<Feature>) -> Vec
 }
 
 /// The classes that remain: names where few, a count where many.
-fn remaining(classes: &Ordered<f64>) -> String {
+pub(super) fn remaining(classes: &Ordered<f64>) -> String {
     let left: Vec<&str> = classes
         .0
         .iter()

@@ -5,6 +5,7 @@
 mod configuration;
 mod lines;
 pub mod log;
+pub mod why;
 
 pub use configuration::configuration;
 pub use lines::{summary, view_line};

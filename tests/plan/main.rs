@@ -8,3 +8,4 @@ mod resume;
 mod support;
 mod tasks;
 mod usage;
+mod why;

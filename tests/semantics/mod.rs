@@ -5,6 +5,7 @@ mod instances;
 mod reference;
 mod simulated;
 mod tanks;
+mod trace;
 mod trial;
 mod world;
 mod worlds;

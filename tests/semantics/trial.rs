@@ -2,13 +2,13 @@
 //! and the demand that fast planner and reference agree on everything.
 
 use rand_pcg::Pcg64;
-use vpl::detect::Measurement;
+use vpl::detect::{Account, Condition, Measurement, Unit};
 use vpl::geometry::{Edge, Point, Polygon, Pose, look_at};
 use vpl::plan::features::Predicted;
 use vpl::plan::instances::Finding;
 use vpl::plan::methods::{self, Situation};
 use vpl::plan::score::{self, Gains};
-use vpl::plan::{Existence, Knowledge, Proofs, Status, Viewpoint, World, predictions, reasoning};
+use vpl::plan::{Existence, Knowledge, Proof, Proofs, Status, Trace, Viewpoint, World, predictions, reasoning};
 use vpl::primitives::Arguments;
 use vpl::rules::{BadArgument, FeatureId, Library, Rule, Task};
 
@@ -47,7 +47,7 @@ struct Symbolic<'a, W: World> {
 }
 
 impl<W: World> Proofs for Symbolic<'_, W> {
-    fn find(&self, rule: &Rule, detect: &Arguments, _: &Arguments) -> Result<Vec<Finding>, BadArgument> {
+    fn find(&self, rule: &Rule, detect: &Arguments, _: &Arguments) -> Result<Proof, BadArgument> {
         let finding = |measurement: Measurement| Finding {
             evidence: None,
             measurement,
@@ -58,10 +58,10 @@ impl<W: World> Proofs for Symbolic<'_, W> {
                 .definite
                 .iter()
                 .filter(|(f, _)| FeatureId(*f) == rule.consequent);
-            return Ok(own.map(|(_, m)| finding(m.clone())).collect());
+            return Ok(self.proof(own.map(|(_, m)| finding(m.clone())).collect()));
         }
         let Ok(edge) = detect.edge("edge") else {
-            return Ok(Vec::new());
+            return Ok(Proof::default());
         };
         let at_edge = |face: &Polygon| {
             let Edge { start, end, .. } = face.edge(0);
@@ -72,15 +72,28 @@ impl<W: World> Proofs for Symbolic<'_, W> {
             .beside
             .iter()
             .filter(|(id, face)| *id == rule.id && at_edge(face));
-        Ok(own.map(|(_, face)| finding(Measurement::Face(face.clone()))).collect())
+        let findings = own.map(|(_, face)| finding(Measurement::Face(face.clone()))).collect();
+        Ok(self.proof(findings))
     }
 
-    fn shell(&self, _: &Rule, detect: &Arguments, predicted: &[Point], near: f64) -> Result<bool, BadArgument> {
+    fn shell(&self, _: &Rule, detect: &Arguments, predicted: &[Point], near: f64) -> Result<Condition, BadArgument> {
         let seen = predicted
             .iter()
             .filter(|p| self.world.measured_within(p, 2.0 * near))
             .count();
-        Ok(seen as f64 >= detect.share("share")? * predicted.len() as f64)
+        let share = seen as f64 / predicted.len() as f64;
+        Ok(Condition::at_least("seen", Unit::Share, share, detect.share("share")?))
+    }
+}
+
+impl<W: World> Symbolic<'_, W> {
+    /// What is shown is looked at; where it is not what was asked for, that is what failed.
+    fn proof(&self, findings: Vec<Finding>) -> Proof {
+        let mut account = Account::of(self.seen.definite.len() + self.seen.beside.len());
+        if findings.is_empty() {
+            account.failed = vec![Condition::plain("shown", false)];
+        }
+        Proof { findings, account }
     }
 }
 
@@ -90,6 +103,8 @@ pub struct Trial {
     pub poses: Vec<Pose>,
     pub candidates: Vec<Viewpoint>,
     pub visited: Vec<usize>,
+    /// Of the last look.
+    pub trace: Trace,
 }
 
 impl Trial {
@@ -108,6 +123,7 @@ impl Trial {
             knowledge,
             poses,
             visited: Vec::new(),
+            trace: Trace::default(),
         }
     }
 
@@ -115,7 +131,8 @@ impl Trial {
     pub fn look<W: World>(&mut self, view: usize, world: &W, seen: &Seen) {
         self.status.visited.push(self.candidates[view].clone());
         self.visited.push(view);
-        reasoning::conclude(&mut self.status, &self.knowledge, world, &Symbolic { seen, world }).unwrap();
+        let proofs = Symbolic { seen, world };
+        self.trace = reasoning::conclude(&mut self.status, &self.knowledge, world, &proofs).unwrap();
     }
 
     pub fn state(&self, feature: u32) -> i8 {
@@ -183,7 +200,7 @@ impl Trial {
         let choice = methods::method(method)
             .unwrap()
             .choose(&situation, &mut Pcg64::new(0, 0))?;
-        Some((gains.views[choice.position], choice.relaxed))
+        Some((gains.views[choice.best.position], choice.relaxed))
     }
 
     /// Holds every count and the next views to the reference. `measured` says

@@ -5,7 +5,7 @@ mod record;
 mod resume;
 mod stage;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
@@ -147,7 +147,8 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
     options.map.as_deref().map_or(Ok(()), record::writable)?;
     let mut recorder = Recorder::begin(options.log.as_deref(), head, logged.len())?;
     let end = drive(&mut session, &stage, noise, options.seed, start, &logged, &mut recorder)?;
-    let summary = show::summary(recorder.records(), &stage.name);
+    let mut summary = show::summary(recorder.records(), &stage.name);
+    summary += &options.log.as_deref().map_or(String::new(), why_line);
     if outputs::use_stdout(options) {
         report(&summary)?;
     } else {
@@ -163,6 +164,16 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
     })
 }
 
+/// Where the run can be asked about.
+fn why_line(log: &Path) -> String {
+    if record::is_stdout(log) {
+        return String::new();
+    }
+    let log = log.display().to_string();
+    let quote = if log.contains(char::is_whitespace) { "'" } else { "" };
+    format!("why         vpl why {quote}{log}{quote} SUBJECT: a rule, a feature, a class, or `view N`\n")
+}
+
 /// Runs the loop to its end, a record and a line a view.
 fn drive(
     session: &mut Session,
@@ -174,6 +185,7 @@ fn drive(
     recorder: &mut Recorder,
 ) -> Result<plan::Outcome, Failure> {
     let task = session.task().clone();
+    recorder.preparing(&format!("working out what can be seen of {}", stage.name));
     let mut coverage = Coverage::new(&stage.simulator, &task.camera, session.views(), task.thresholds.near);
     let sensor = stage.sensor(task.camera, noise, seed);
     let mut turn = ClosedLoop::new(session, sensor, start);

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::cli::{Failure, report};
 use crate::map::{Map, write_bt};
-use crate::plan::{Decision, End, Part, Phase, Step};
+use crate::plan::{End, Part, Phase, Step};
 use crate::show::log::{self, Milliseconds, Record};
 use crate::show::view_line;
 
@@ -46,6 +46,12 @@ impl Recorder {
         &self.records
     }
 
+    /// Shows what is done before the first view.
+    pub fn preparing(&self, doing: &str) {
+        self.bar.set_message(doing.to_owned());
+        self.bar.tick();
+    }
+
     /// Starts the clock of a view.
     pub fn begin_view(&mut self) {
         self.ms = Milliseconds::default();
@@ -70,18 +76,11 @@ impl Recorder {
     /// Records a view.
     pub fn view(&mut self, step: &Step) -> Result<(), Failure> {
         let view = log::View::of(step, self.ms);
-        let target = match &step.decision {
-            Decision::Next(next) => next.target.as_ref().map(|t| match t.key.as_str() {
-                key if key.contains('/') => format!("{} at {key}", t.feature),
-                _ => t.feature.clone(),
-            }),
-            Decision::End(_) => None,
-        };
         let before = self.records.iter().rev().find_map(|r| match r {
             Record::View(view) => Some(view.as_ref()),
             _ => None,
         });
-        let line = view_line(before, &view, target.as_deref());
+        let line = view_line(before, &view);
         self.bar.suspend(|| report(&format!("{line}\n")))?;
         self.write(Record::View(Box::new(view)))
     }

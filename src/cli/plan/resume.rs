@@ -8,7 +8,7 @@ use std::path::Path;
 
 use crate::cli::Failure;
 use crate::plan::Step;
-use crate::show::log::{Record, Start};
+use crate::show::log::{Run, Start};
 
 /// The views of a logged run, in order.
 ///
@@ -16,26 +16,12 @@ use crate::show::log::{Record, Start};
 /// No log, another run, or one that began elsewhere.
 pub(super) fn views(path: &Path, now: &Start, start: usize) -> Result<Vec<usize>, Failure> {
     let refuse = |why: String| Failure::Resume(format!("`{}`", path.display()), why);
-    let text = fs::read_to_string(path).map_err(|error| refuse(error.to_string()))?;
-    let mut records = Vec::new();
-    for (k, line) in text.lines().enumerate() {
-        match Record::from_line(line) {
-            Ok(record) => records.push(record),
-            // An interrupted run may end within a line.
-            Err(_) if k > 0 && k + 1 == text.lines().count() => break,
-            Err(error) => return Err(refuse(format!("line {} is no record of a run log: {error}", k + 1))),
-        }
-    }
-    let Some(Record::Start(then)) = records.first() else {
-        return Err(refuse("it does not begin with a start record".into()));
-    };
-    if let Some(difference) = difference(then, now) {
+    let bytes = fs::read(path).map_err(|error| refuse(error.to_string()))?;
+    let run = Run::read(&bytes).map_err(|error| refuse(error.to_string()))?;
+    if let Some(difference) = difference(&run.start, now) {
         return Err(refuse(difference));
     }
-    let views: Vec<usize> = records
-        .iter()
-        .filter_map(|r| if let Record::View(v) = r { Some(v.view) } else { None })
-        .collect();
+    let views: Vec<usize> = run.views.iter().map(|v| v.view).collect();
     match views.first() {
         Some(first) if *first != start => Err(refuse(format!(
             "it began at view {first}, and this run would at {start}; say `--start {first}`"

@@ -2,6 +2,7 @@
 
 use nalgebra::Point2;
 
+use crate::detect::account::{Condition, Judgement, Unit};
 use crate::detect::cloud::Cloud;
 use crate::detect::scan::Luma;
 use crate::detect::segment::Region;
@@ -33,17 +34,17 @@ pub struct Patch {
 
 impl Patch {
     /// Draws a region; `None` where no code fits on it.
-    pub fn of(cloud: &Cloud, region: &Region, luma: &Luma) -> Option<Self> {
+    pub fn of(cloud: &Cloud, region: &Region, luma: &Luma, judged: &mut Judgement) -> Option<Self> {
         let eye = cloud.eye();
         let first = region.pixels.first().map(|&p| cloud.points[p])?;
-        if region.plane.normal.dot(&(eye - first).normalize()) < FLATTEST {
+        if !judged.holds(seen_at(region.plane.normal.dot(&(eye - first).normalize()))) {
             return None;
         }
         let foot = first - region.plane.normal * region.plane.distance(&first);
         let world_from_plane = frame_facing(foot, region.plane.normal);
         let (low, high) = extent(cloud, region, &world_from_plane);
         let size = high - low;
-        if size.min() < SMALLEST {
+        if !judged.holds(Condition::at_least("extent", Unit::Length, size.min(), SMALLEST)) {
             return None;
         }
         let nearest = region
@@ -101,6 +102,13 @@ impl Patch {
             }
         }
     }
+}
+
+/// Whether a region is turned to the camera enough, by the cosine of incidence.
+fn seen_at(cosine: f64) -> Condition {
+    let bounds = (None, Some(FLATTEST.acos()));
+    let incidence = cosine.clamp(-1.0, 1.0).acos();
+    Condition::quantity("incidence", Unit::Angle, incidence, bounds, cosine >= FLATTEST)
 }
 
 /// The region's bounds in its plane, metres.

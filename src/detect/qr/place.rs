@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
 use super::Code;
 use super::modules::Square;
 use super::patch::Patch;
+use crate::detect::account::Judgement;
 use crate::detect::cloud::Cloud;
 use crate::detect::plane_fit::{Plane, robust_plane};
 use crate::detect::scan::Luma;
@@ -46,6 +47,7 @@ pub fn placed(cloud: &Cloud, region: &Region, luma: &Luma, patch: &Patch, square
         pose,
         size,
         pixels,
+        judged: Judgement::default(),
     })
 }
 

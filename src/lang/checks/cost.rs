@@ -21,14 +21,15 @@ pub(super) fn check(task: &Analysed<'_>) -> Option<Diagnostic> {
     let certificates: Vec<Option<Certificate>> =
         (0..n).map(|m| recognition.certificate(m, &mut part.clone())).collect();
     let mut out = Diagnostic::new(Code::N0401, task.spans.goal, message(n, recognition));
-    if n <= MOST_SHOWN {
-        for (class, certificate) in library.classes.iter().zip(&certificates) {
-            if let Some(certificate) = certificate {
-                out = out.related(class.place, proof(certificate, library));
-            }
+    if n > MOST_SHOWN {
+        return Some(out.maybe_help(extremes(&certificates, library)));
+    }
+    for (class, certificate) in library.classes.iter().zip(&certificates) {
+        if let Some(certificate) = certificate {
+            out = out.related(class.place, proof(certificate, library));
         }
     }
-    Some(out.maybe_help(extremes(&certificates, library)))
+    Some(out)
 }
 
 fn message(n: usize, recognition: &Recognition) -> String {
@@ -43,7 +44,9 @@ fn message(n: usize, recognition: &Recognition) -> String {
                  there are too many for an exact figure"
             )
         }
-        Tests::Endless => format!("no order of feature tests makes every one of {n} classes certain"),
+        Tests::Endless => format!(
+            "telling {n} classes apart has no average number of feature tests: on some objects some come to no end"
+        ),
     }
 }
 
@@ -72,16 +75,13 @@ fn extremes(certificates: &[Option<Certificate>], library: &Library) -> Option<S
         .collect();
     let (least, most) = (known.iter().map(|k| k.0).min()?, known.iter().map(|k| k.0).max()?);
     let of = |n: usize| names(known.iter().filter(|k| k.0 == n).map(|k| k.1));
-    let features = |n: usize| format!("{n} feature{}", if n == 1 { "" } else { "s" });
-    if least == most {
-        return Some(format!("{} can be certain after {}", of(least), features(least)));
-    }
+    let tests = |n: usize| format!("{n} test{}", if n == 1 { "" } else { "s" });
     Some(format!(
-        "{} can be certain after {}, {} after {} at the earliest: a feature of its own shortens that",
+        "certain after {} at the earliest: {}; after {} at the earliest: {}",
+        tests(least),
         of(least),
-        features(least),
-        of(most),
-        features(most)
+        tests(most),
+        of(most)
     ))
 }
 

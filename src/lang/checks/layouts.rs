@@ -16,14 +16,15 @@ const THICK: f64 = 0.005;
 /// Normals closer than this are parallel, as a cosine.
 const PARALLEL: f64 = 0.996;
 
-pub(super) fn check(library: &Library, layouts: &[Placed]) -> Vec<Diagnostic> {
+pub(super) fn check(library: &Library, layouts: &[Option<Placed>]) -> Vec<Diagnostic> {
+    let layouts: Vec<&Placed> = layouts.iter().flatten().collect();
     let predicted: BTreeSet<FeatureId> = library
         .rules
         .iter()
         .filter(|r| r.predict.is_some())
         .map(|r| r.consequent)
         .collect();
-    let prints = sizes(library, layouts);
+    let prints = sizes(library, &layouts);
     let mut found = Vec::new();
     for layout in layouts {
         found.extend(left_out(layout, library, &predicted));
@@ -53,7 +54,7 @@ fn left_out(layout: &Placed, library: &Library, predicted: &BTreeSet<FeatureId>)
 }
 
 /// Edges of the code and of the print of each feature that is placed, metres.
-fn sizes(library: &Library, layouts: &[Placed]) -> BTreeMap<FeatureId, (f64, f64)> {
+fn sizes(library: &Library, layouts: &[&Placed]) -> BTreeMap<FeatureId, (f64, f64)> {
     let placed: BTreeSet<FeatureId> = layouts.iter().flat_map(|l| &l.places).map(|(f, _, _)| *f).collect();
     let mut out = BTreeMap::new();
     let definite = library.rules.iter().filter(|r| r.antecedents.is_empty());

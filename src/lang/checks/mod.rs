@@ -71,13 +71,13 @@ pub(super) fn check(lowered: &Lowered) -> Vec<Diagnostic> {
 }
 
 /// Every library that is free of errors, with its layouts.
-fn whole(lowered: &Lowered) -> Vec<(Option<&Library>, &[Placed])> {
+fn whole(lowered: &Lowered) -> Vec<(Option<&Library>, &[Option<Placed>])> {
     let libraries = lowered.rules.libraries.iter().zip(&lowered.whole);
     let layouts = lowered.layouts.iter().map(Vec::as_slice);
     libraries.map(|(l, whole)| whole.then_some(l)).zip(layouts).collect()
 }
 
-fn of_library(library: &Library, layouts: &[Placed], found: &mut Vec<Diagnostic>) {
+fn of_library(library: &Library, layouts: &[Option<Placed>], found: &mut Vec<Diagnostic>) {
     let reach = Reach::new(library);
     found.extend(features::check(library));
     found.extend(firing::check(library, &reach));

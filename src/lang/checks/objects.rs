@@ -106,7 +106,11 @@ fn report(code: Code, objects: &[(&SceneObject, f64)], tasks: &[Analysed<'_>]) -
 }
 
 /// What the marks of a scene's objects have to do with their names and layouts.
-pub(super) fn marks(scene: &Scene, marks: &[Mark], libraries: &[(Option<&Library>, &[Placed])]) -> Vec<Diagnostic> {
+pub(super) fn marks(
+    scene: &Scene,
+    marks: &[Mark],
+    libraries: &[(Option<&Library>, &[Option<Placed>])],
+) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for mark in marks {
         let (Some(object), Some((Some(library), layouts))) =
@@ -120,7 +124,7 @@ pub(super) fn marks(scene: &Scene, marks: &[Mark], libraries: &[(Option<&Library
         let namesake = library.classes.iter().find(|c| c.name == object.name);
         if let Some(namesake) = namesake.filter(|c| c.name != class.name) {
             let message = format!(
-                "`{}` is marked as `{}`, and a class has its own name",
+                "`{}` is marked as `{}`, and its name is that of another class",
                 object.name, class.name
             );
             found.push(
@@ -129,7 +133,7 @@ pub(super) fn marks(scene: &Scene, marks: &[Mark], libraries: &[(Option<&Library
                     .help(format!("mark it as `{}`, or give it another name", object.name)),
             );
         }
-        let layout = layouts.iter().find(|l| l.name == mark.layout);
+        let layout = layouts.get(mark.layout).and_then(Option::as_ref);
         let bare = |l: &&Placed| !l.places.iter().any(|(f, _, _)| class.presence.has(*f));
         if let Some(layout) = layout.filter(bare) {
             let message = format!("`{}` has no code that layout `{}` places", class.name, layout.name);

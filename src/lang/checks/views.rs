@@ -30,13 +30,9 @@ pub(super) fn check(task: &Analysed<'_>) -> Vec<Diagnostic> {
         let code = if blind == count { Code::E0403 } else { Code::W0408 };
         let reads = format!("it reads depths from {} to {}", metres(range.min), metres(range.max));
         found.push(
-            Diagnostic::new(
-                code,
-                task.spans.views,
-                format!("{} where the camera sees nothing of the space", some(blind, count)),
-            )
-            .related(task.spans.space, "the space")
-            .help(format!("{reads}: move the views, or take another camera")),
+            Diagnostic::new(code, task.spans.views, blind_message(blind, count))
+                .related(task.spans.space, "the space")
+                .help(format!("{reads}: move the views, or take another camera")),
         );
     }
     found
@@ -51,6 +47,13 @@ pub(super) fn nearest(bounds: &Bounds, view: &Pose) -> f64 {
     let p = eye(view);
     let clamped = p.coords.sup(&bounds.min.coords).inf(&bounds.max.coords);
     (p.coords - clamped).norm()
+}
+
+fn blind_message(n: usize, of: usize) -> String {
+    match n == of {
+        true => "the camera sees nothing of the space from any view".into(),
+        false => format!("the camera sees nothing of the space from {n} of {of} views"),
+    }
 }
 
 fn some(n: usize, of: usize) -> String {

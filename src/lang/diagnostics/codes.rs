@@ -1,7 +1,12 @@
-//! Every code with a title: E01 syntax and files, E02 names, E03 types and
-//! units, E04 task checks, E05 scenes, W04 warnings about tasks, N04 notes.
+//! Every code with its title and its page: E01 syntax and files, E02 names, E03
+//! types and units, E04 task checks, E05 scenes, E06 what a command could not do,
+//! E07 facts and questions about runs; W04 warnings and N04 notes about tasks.
+//!
+//! A code is declared here once; without its page `docs/diagnostics/CODE.md` the
+//! crate does not build, and a test runs the programs of each page.
 
 use std::fmt;
+use std::str::FromStr;
 
 use super::Severity;
 
@@ -22,6 +27,19 @@ macro_rules! codes {
         pub fn title(code: Code) -> &'static str {
             match code {
                 $(Code::$code => $title,)*
+            }
+        }
+
+        /// The page of a code: Markdown, with a program that fails and one that does not.
+        pub fn page(code: Code) -> &'static str {
+            match code {
+                $(Code::$code => include_str!(concat!("../../../docs/diagnostics/", stringify!($code), ".md")),)*
+            }
+        }
+
+        fn written(code: Code) -> &'static str {
+            match code {
+                $(Code::$code => stringify!($code),)*
             }
         }
     };
@@ -50,6 +68,9 @@ codes! {
     E0208 "an unknown library, class or layout"
     E0209 "definitions that need each other in a circle"
     E0210 "an index that fits no family"
+    E0211 "a name that hides another"
+    E0212 "a template where a library is due"
+    E0213 "a default that reads a parameter"
     E0301 "a value of the wrong type"
     E0302 "a missing or an unknown unit"
     E0303 "a missing argument"
@@ -76,6 +97,16 @@ codes! {
     E0503 "a view inside an object"
     E0504 "an object that cannot be shown"
     E0505 "an object outside the space"
+    E0601 "a result that cannot be written"
+    E0602 "a run that cannot be resumed"
+    E0603 "a run that cannot be made"
+    E0701 "a fact that does not hold"
+    E0702 "evidence that contradicts itself"
+    E0703 "an expectation that cannot be checked"
+    E0711 "a run log that cannot be read"
+    E0712 "a file that is no run log"
+    E0713 "a question about something that a run does not know"
+    E0714 "a question about a view that a run does not have"
     W0401 "an attribute that has no value at first"
     W0402 "a feature that no class has"
     W0403 "a feature that every class has"
@@ -101,24 +132,36 @@ codes! {
 
 impl Code {
     /// As it is written.
-    pub fn as_str(self) -> String {
-        format!("{self:?}")
+    pub fn as_str(self) -> &'static str {
+        written(self)
     }
 
-    /// What diagnostics of this code usually are.
+    /// What diagnostics of this code usually are, which is what its letter says.
     pub fn severity(self) -> Severity {
-        if self < Self::W0401 {
-            Severity::Error
-        } else if self < Self::N0401 {
-            Severity::Warning
-        } else {
-            Severity::Note
+        match self.as_str().as_bytes() {
+            [b'W', ..] => Severity::Warning,
+            [b'N', ..] => Severity::Note,
+            _ => Severity::Error,
         }
     }
 }
 
 impl fmt::Display for Code {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{self:?}")
+        f.write_str(self.as_str())
+    }
+}
+
+/// There is no such code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no such code")]
+pub struct UnknownCode;
+
+impl FromStr for Code {
+    type Err = UnknownCode;
+
+    fn from_str(text: &str) -> Result<Self, UnknownCode> {
+        let named = Self::ALL.iter().find(|code| code.as_str().eq_ignore_ascii_case(text));
+        named.copied().ok_or(UnknownCode)
     }
 }

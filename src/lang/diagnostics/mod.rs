@@ -4,12 +4,21 @@
 //! and edits that would do so. Stages collect them; nothing here is thrown.
 
 mod codes;
+mod edits;
 mod human;
 mod json;
+mod page;
+mod paint;
 mod plain;
+mod preview;
 mod render;
+mod ruled;
+mod sarif;
 
-pub use codes::{Code, title};
+pub use codes::{Code, UnknownCode, page, title};
+pub use edits::edited;
+pub(super) use edits::touch;
+pub use page::{explain, index as index_of_codes, list as list_of_codes, similar as similar_codes};
 pub use render::{Format, render};
 
 use super::source::{FileId, Span};

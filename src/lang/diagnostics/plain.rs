@@ -2,21 +2,22 @@
 
 use std::fmt::Write;
 
+use super::paint::{one_line, visible};
 use super::{Diagnostic, Label};
 use crate::lang::source::SourceMap;
 
 /// The full form.
 pub(super) fn one(d: &Diagnostic, sources: &SourceMap) -> String {
-    let mut out = format!("{}[{}]: {}\n", d.severity.word(), d.code, d.message);
+    let mut out = format!("{}[{}]: {}\n", d.severity.word(), d.code, one_line(&d.message));
     excerpt(&mut out, &d.primary, sources);
     for label in &d.related {
         excerpt(&mut out, label, sources);
     }
     if let Some(help) = &d.help {
-        let _ = writeln!(out, "  help: {help}");
+        let _ = writeln!(out, "  help: {}", one_line(help));
     }
     for fix in &d.fixes {
-        let _ = writeln!(out, "  fix: {}", fix.message);
+        let _ = writeln!(out, "  fix: {}", one_line(&fix.message));
     }
     out.push('\n');
     out
@@ -24,14 +25,9 @@ pub(super) fn one(d: &Diagnostic, sources: &SourceMap) -> String {
 
 /// `file:line:column: error[E0101]: message`.
 pub(super) fn short(d: &Diagnostic, sources: &SourceMap) -> String {
-    let help = d.help.as_deref().map(|h| format!(" ({h})")).unwrap_or_default();
-    let message = format!("{}{help}", d.message).replace('\n', " ");
-    format!(
-        "{}: {}[{}]: {message}\n",
-        place(&d.primary, sources),
-        d.severity.word(),
-        d.code
-    )
+    let place = place(&d.primary, sources);
+    let (severity, message) = (d.severity.word(), one_line(&d.message));
+    format!("{place}: {severity}[{}]: {message}\n", d.code)
 }
 
 /// The line of a label with marks under it.
@@ -47,12 +43,8 @@ fn excerpt(out: &mut String, label: &Label, sources: &SourceMap) {
     }
     // A line of a generated file can be very long: show what surrounds the place.
     let skipped = column.saturating_sub(80);
-    let shown: String = text
-        .chars()
-        .skip(skipped)
-        .take(160)
-        .collect::<String>()
-        .replace('\t', " ");
+    let plain = |c| if c == '\t' { ' ' } else { visible(c) };
+    let shown: String = text.chars().skip(skipped).take(160).map(plain).collect();
     let room = shown.chars().count().saturating_sub(column - 1 - skipped);
     let marks = sources.text(label.span).lines().next().unwrap_or("").chars().count();
     let marks = "^".repeat(marks.clamp(1, room.max(1)));
@@ -62,7 +54,7 @@ fn excerpt(out: &mut String, label: &Label, sources: &SourceMap) {
         out,
         "    {margin} | {}{marks} {}",
         " ".repeat(column - 1 - skipped),
-        label.text
+        one_line(&label.text)
     );
     let trimmed = out.trim_end().len();
     out.truncate(trimmed);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Lowering, constants, ranges};
+use super::{Lowering, constants, faces, ranges};
 use crate::geometry::{Point, Vector};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::Span;
@@ -11,7 +11,7 @@ use crate::primitives::{Primitive, Type};
 use crate::rules::{Call, Expr, Value};
 
 /// Most expressions that a program expands to.
-const MOST_STEPS: usize = 4_000_000;
+pub(super) const MOST_STEPS: usize = 4_000_000;
 
 /// An expanded expression and where the user wrote it: for a parameter, the argument.
 #[derive(Clone, Debug)]
@@ -26,8 +26,19 @@ pub(super) struct Env<'a> {
     pub parameters: BTreeMap<&'a str, Expanded>,
     pub indices: BTreeMap<String, u64>,
     pub families: Option<&'a Families>,
-    /// The call that the user wrote, where this is inside of a definition.
+    /// The call or the `use` that the user wrote, where this is inside of a definition
+    /// or of a library that was taken over.
     pub call: Option<Span>,
+}
+
+impl Env<'_> {
+    /// What the inside of a definition sees before its parameters are known.
+    pub fn called(call: Span) -> Self {
+        Self {
+            call: Some(call),
+            ..Self::default()
+        }
+    }
 }
 
 impl<'a> Lowering<'a> {
@@ -39,6 +50,10 @@ impl<'a> Lowering<'a> {
         }
         let expr = match &e.kind {
             ExprKind::Parameter(name) => return env.parameters.get(name.as_str()).cloned(),
+            ExprKind::ParameterAttribute(name, attribute) => {
+                let of = env.parameters.get(name.as_str())?.clone();
+                self.attribute_of(&of.expr, attribute, of.span)?
+            }
             ExprKind::Value(value) => Expr::Value(value.clone()),
             ExprKind::Text(parts) => Expr::Value(Value::Text(self.text(parts, env, e.span)?)),
             ExprKind::Variable(name) => Expr::Variable(name.clone()),
@@ -59,14 +74,22 @@ impl<'a> Lowering<'a> {
             ExprKind::Primitive(primitive, arguments) => Expr::Call(self.call(primitive, arguments, e.span, env)?),
             ExprKind::Definition(id, arguments) => {
                 let definition = self.typed.definitions.get(id.0)?.as_ref()?;
-                let given: Vec<Option<Expanded>> = arguments.iter().map(|a| self.expand(a, env)).collect();
-                let given = given.into_iter().collect::<Option<Vec<_>>>()?;
-                let names = definition.parameters.iter().map(String::as_str);
-                let inner = Env {
-                    parameters: names.zip(given).collect(),
-                    call: Some(env.call.unwrap_or(e.span)),
-                    ..Env::default()
-                };
+                let mut inner = Env::called(env.call.unwrap_or(e.span));
+                let mut right = true;
+                for (parameter, argument) in definition.parameters.iter().zip(arguments) {
+                    let given = match (argument, &parameter.default) {
+                        (Some(argument), _) => self.expand(argument, env),
+                        (None, Some(default)) => self.expand(default, &Env::called(inner.call.unwrap_or(e.span))),
+                        (None, None) => None,
+                    };
+                    right &= given.is_some();
+                    inner
+                        .parameters
+                        .extend(given.map(|given| (parameter.name.as_str(), given)));
+                }
+                if !right {
+                    return None;
+                }
                 self.expand(&definition.body, &inner)?.expr
             }
         };
@@ -89,15 +112,35 @@ impl<'a> Lowering<'a> {
     }
 
     /// Expands an expression that has a value at once.
-    pub(super) fn value(&mut self, e: &'a typed::Expr) -> Option<Value> {
-        match self.expand(e, &Env::default())?.expr {
+    pub(super) fn value(&mut self, e: &'a typed::Expr, env: &Env<'a>) -> Option<Value> {
+        match self.expand(e, env)?.expr {
             Expr::Value(value) => Some(value),
             _ => {
-                self.report(Diagnostic::new(
-                    Code::E0301,
-                    e.span,
-                    "this value must be known before the robot moves",
-                ));
+                let message = "this value must be known before the robot moves";
+                self.report(Diagnostic::new(Code::E0301, env.call.unwrap_or(e.span), message));
+                None
+            }
+        }
+    }
+
+    /// An attribute of what a parameter stands for: a feature, or one in place of another.
+    fn attribute_of(&mut self, of: &Expr, attribute: &str, span: Span) -> Option<Expr> {
+        match of {
+            Expr::Attribute { feature, name } if name == "self" => Some(Expr::Attribute {
+                feature: *feature,
+                name: attribute.to_owned(),
+            }),
+            Expr::Else(a, b) => {
+                let (a, b) = (
+                    self.attribute_of(a, attribute, span),
+                    self.attribute_of(b, attribute, span),
+                );
+                Some(Expr::Else(Box::new(a?), Box::new(b?)))
+            }
+            Expr::Call(call) if faces::is_written(call) => faces::attribute(call, attribute),
+            _ => {
+                let message = format!("`{attribute}` is read from this, and it is no feature");
+                self.report(Diagnostic::new(Code::E0206, span, message).help("give the name of a polygon feature"));
                 None
             }
         }

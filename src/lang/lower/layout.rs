@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Lowering;
+use super::expand::{Env, MOST_STEPS};
 use super::library::MOST_RULES;
 use crate::geometry::{Pose, frame_facing};
 use crate::lang::diagnostics::{Code, Diagnostic};
@@ -17,26 +18,32 @@ pub(in crate::lang) struct Placed {
     pub name: String,
     /// Its line.
     pub span: Span,
-    /// `frame_from_place` of each feature, and where that is written.
+    /// The object's frame from each marker, and where that is written.
     pub places: Vec<(FeatureId, Pose, Span)>,
 }
 
 impl<'a> Lowering<'a> {
     /// Adds a rule for every ordered pair of places, in the order of the features.
     /// Says which definite rules are missing where the library is `whole` otherwise.
-    pub(super) fn layout(&mut self, layout: &'a typed::Layout, out: &mut Library, whole: bool) -> Option<Placed> {
-        let n = layout.places.len();
-        if n.saturating_mul(n) + out.rules.len() > MOST_RULES {
-            return self.too_far(layout.span);
+    pub(super) fn layout(
+        &mut self,
+        layout: &'a typed::Layout,
+        env: &Env<'a>,
+        out: &mut Library,
+        whole: bool,
+    ) -> Option<Placed> {
+        let pairs = layout.places.len().saturating_mul(layout.places.len());
+        self.steps = self.steps.saturating_add(pairs);
+        if pairs + out.rules.len() > MOST_RULES || self.steps > MOST_STEPS {
+            return self.too_far(env.call.unwrap_or(layout.span));
         }
-        let places: Vec<Option<_>> = layout
-            .places
-            .iter()
-            .map(|p| self.place_pose(p).map(|(feature, pose)| (feature, pose, p.span)))
+        let places = layout.places.iter();
+        let places: Vec<Option<_>> = places
+            .map(|p| self.place_pose(p, env).map(|(feature, pose)| (feature, pose, p.span)))
             .collect();
         let mut places = places.into_iter().collect::<Option<Vec<_>>>()?;
         places.sort_by_key(|(feature, _, _)| *feature);
-        let definite = self.definite_rules(layout, out, whole);
+        let definite = self.definite_rules(layout, env, out, whole);
         let edges: BTreeMap<FeatureId, f64> = definite
             .iter()
             .filter_map(|(feature, rule)| Some((*feature, printed_edge(&rule.detect).ok()?)))
@@ -65,8 +72,8 @@ impl<'a> Lowering<'a> {
     }
 
     /// `frame_from_place`: the frame that the layout is written in is the object's.
-    pub(super) fn place_pose(&mut self, place: &'a typed::LayoutPlace) -> Option<(FeatureId, Pose)> {
-        let (at, facing) = (self.value(&place.at), self.value(&place.facing));
+    fn place_pose(&mut self, place: &'a typed::LayoutPlace, env: &Env<'a>) -> Option<(FeatureId, Pose)> {
+        let (at, facing) = (self.value(&place.at, env), self.value(&place.facing, env));
         match (at?, facing?) {
             (Value::Point(at), Value::Direction(facing)) => Some((place.feature, frame_facing(at, facing))),
             _ => None,
@@ -74,7 +81,13 @@ impl<'a> Lowering<'a> {
     }
 
     /// The definite rule of each placed feature, whose detection the pairs repeat.
-    fn definite_rules(&mut self, layout: &typed::Layout, library: &Library, whole: bool) -> BTreeMap<FeatureId, Rule> {
+    fn definite_rules(
+        &mut self,
+        layout: &typed::Layout,
+        env: &Env<'a>,
+        library: &Library,
+        whole: bool,
+    ) -> BTreeMap<FeatureId, Rule> {
         let mut out = BTreeMap::new();
         for place in &layout.places {
             let definite = library
@@ -88,7 +101,7 @@ impl<'a> Lowering<'a> {
                     let name = &library.feature(place.feature).name;
                     let message = format!("no rule says how `{name}` is detected by itself");
                     self.report(
-                        Diagnostic::new(Code::E0502, place.span, message)
+                        Diagnostic::new(Code::E0502, env.call.unwrap_or(place.span), message)
                             .help(format!("add `rule -> {name} {{ … }}` with `detect` and `measure`")),
                     );
                 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Lowering;
+use super::environments::Environments;
 use super::expand::Env;
 use super::layout::Placed;
 use crate::lang::diagnostics::{Code, Diagnostic};
@@ -15,25 +16,30 @@ use crate::rules::{Call, Class, Each, Feature, FeatureId, Library, Presence, Rul
 pub(super) const MOST_RULES: usize = 100_000;
 
 impl<'a> Lowering<'a> {
-    /// A library, and where its layouts place its features.
-    pub(super) fn library(&mut self, library: &'a typed::Library) -> (Library, Vec<Placed>) {
+    /// The library, and each layout where its places are right.
+    pub(super) fn library(&mut self, library: &'a typed::Library) -> (Library, Vec<Option<Placed>>) {
         let before = self.found.len();
+        let environments = self.environments(library);
         let mut out = Library {
             name: library.name.clone(),
             features: library.features.iter().map(|f| self.feature(f)).collect(),
-            classes: self.classes(library),
+            classes: self.classes(library, &environments),
             rules: Vec::new(),
             place: self.place(library.span),
         };
         for rule in &library.rules {
-            self.rule(rule, library, &mut out);
+            let env = environments.of(rule.environment);
+            self.taken_over(&env, rule.span, |lowering| lowering.rule(rule, library, &env, &mut out));
         }
         // A rule that is wrong is not missing, too.
         let whole = library.whole && self.found.len() == before;
-        let layouts = library.layouts.iter();
-        let placed = layouts
-            .filter_map(|layout| self.layout(layout, &mut out, whole))
-            .collect();
+        let mut placed = Vec::new();
+        for layout in &library.layouts {
+            let env = environments.of(layout.environment);
+            self.taken_over(&env, layout.span, |lowering| {
+                placed.push(lowering.layout(layout, &env, &mut out, whole));
+            });
+        }
         (out, placed)
     }
 
@@ -46,15 +52,16 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn classes(&mut self, library: &'a typed::Library) -> Vec<Class> {
+    fn classes(&mut self, library: &'a typed::Library, environments: &Environments<'a>) -> Vec<Class> {
         let classes = &library.classes;
         let given = classes.iter().all(|c| c.prior.is_some()) && !classes.is_empty();
         let mut priors = vec![1.0 / classes.len().max(1) as f64; classes.len()];
         if given {
             for (prior, class) in priors.iter_mut().zip(classes) {
-                if let Some(Value::Share(share)) = class.prior.as_ref().and_then(|p| self.value(p)) {
+                let env = environments.of(class.environment);
+                if let Some(Value::Share(share)) = class.prior.as_ref().and_then(|p| self.value(p, &env)) {
                     *prior = share;
-                    self.prior_in_range(share, class.span);
+                    self.prior_in_range(share, env.call.unwrap_or(class.span));
                 }
             }
             self.priors_sum_to_one(&mut priors, library.span);
@@ -92,20 +99,20 @@ impl<'a> Lowering<'a> {
         priors.iter_mut().for_each(|p| *p /= sum);
     }
 
-    fn rule(&mut self, rule: &'a typed::Rule, library: &'a typed::Library, out: &mut Library) {
+    fn rule(&mut self, rule: &'a typed::Rule, library: &'a typed::Library, outer: &Env<'a>, out: &mut Library) {
         let combinations: usize = rule
             .indices
             .iter()
             .fold(1, |n, (_, values)| n.saturating_mul(values.len()));
         if combinations.saturating_add(out.rules.len()) > MOST_RULES {
-            self.too_far::<()>(rule.span);
+            self.too_far::<()>(outer.call.unwrap_or(rule.span));
             return;
         }
         for k in 0..combinations {
             let env = Env {
                 indices: combination(&rule.indices, k),
                 families: Some(&library.families),
-                ..Env::default()
+                ..outer.clone()
             };
             let before = self.found.len();
             let one = self.one_rule(rule, &env, out);
@@ -143,7 +150,7 @@ impl<'a> Lowering<'a> {
         let kind = library.features.get(consequent.index())?;
         let mut part = |e: &'a typed::Expr, word: &str| {
             let call = self.primitive(e, env)?;
-            self.fits(&call, kind, word, e.span)?;
+            self.fits(&call, kind, word, env.call.unwrap_or(e.span))?;
             Some(call)
         };
         let (detect, measure) = (part(&rule.detect, "detects"), part(&rule.measure, "measures"));

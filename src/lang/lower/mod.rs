@@ -5,7 +5,10 @@
 //! definition comes down to.
 
 mod constants;
+mod environments;
 mod expand;
+mod faces;
+mod facts;
 mod layout;
 mod library;
 mod ranges;
@@ -19,21 +22,23 @@ use super::diagnostics::Diagnostic;
 use super::names::Program;
 use super::source::{SourceMap, Span};
 use super::types::typed;
-use crate::rules::{FORMAT, Place, RuleSet};
+use crate::rules::{FORMAT, Fact, Library, Place, RuleSet};
 
 /// The rule set as far as the program is right, with spans for the task checks.
 pub(super) struct Lowered {
     pub rules: RuleSet,
     /// By library: whether all of it was lowered.
     pub whole: Vec<bool>,
-    /// By library: its layouts, as far as they are right.
-    pub layouts: Vec<Vec<Placed>>,
+    /// By library: its layouts; `None` where a place is wrong.
+    pub layouts: Vec<Vec<Option<Placed>>>,
     /// By task.
     pub task_spans: Vec<TaskSpans>,
     /// By scene: its backdrop.
     pub backdrop_spans: Vec<Span>,
     /// By scene: what its objects are marked as.
     pub marks: Vec<Vec<Mark>>,
+    /// The tests of the main file.
+    pub facts: Vec<Fact>,
 }
 
 /// `marked LIBRARY.LAYOUT as CLASS`.
@@ -42,9 +47,9 @@ pub(super) struct Mark {
     pub object: usize,
     /// Which library.
     pub library: usize,
-    /// The layout's name.
-    pub layout: String,
-    /// Which of the library's classes.
+    /// Which of its layouts.
+    pub layout: usize,
+    /// Which of its classes.
     pub class: usize,
     /// Where it stands.
     pub span: Span,
@@ -73,13 +78,17 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         task_spans: Vec::new(),
         backdrop_spans: Vec::new(),
         marks: Vec::new(),
+        facts: Vec::new(),
     };
     let mut libraries = Vec::new();
     for library in &typed.libraries {
         let before = lowering.found.len();
         let (lowered, layouts) = lowering.library(library);
-        out.layouts.push(layouts);
-        libraries.push((lowered, library.whole && lowering.found.len() == before));
+        libraries.push(LoweredLibrary {
+            library: lowered,
+            layouts,
+            whole: library.whole && lowering.found.len() == before,
+        });
     }
     for task in &typed.tasks {
         if let Some((task, spans)) = lowering.task(task) {
@@ -93,8 +102,22 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         out.marks.push(marks);
         out.backdrop_spans.push(scene.backdrop_span);
     }
-    (out.rules.libraries, out.whole) = libraries.into_iter().unzip();
+    out.facts = lowering.facts(&typed.facts, &libraries);
+    for library in libraries {
+        out.rules.libraries.push(library.library);
+        out.layouts.push(library.layouts);
+        out.whole.push(library.whole);
+    }
     (out, lowering.found)
+}
+
+/// A library with what scenes need of it.
+struct LoweredLibrary {
+    library: Library,
+    /// By layout; `None` where a place is wrong.
+    layouts: Vec<Option<Placed>>,
+    /// Whether all of it was lowered.
+    whole: bool,
 }
 
 struct Lowering<'a> {

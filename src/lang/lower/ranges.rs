@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::expand::Expanded;
+use super::faces;
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::Span;
 use crate::primitives::{self, Primitive, Type};
@@ -60,6 +61,8 @@ pub(super) fn check_call(primitive: &Primitive, call: &Call, span: Span) -> Opti
         (Type::Camera, _) => primitives::camera(call).err().map(|error| error.to_string()),
         (_, "box_grid") => box_grid(call),
         (_, "positions") => positions(call),
+        (_, "polygon") => faces::check_polygon(call),
+        (_, "edge_of") => faces::check_edge(call),
         _ => sides_exist(call),
     }?;
     Some(Diagnostic::new(Code::E0309, span, wrong))

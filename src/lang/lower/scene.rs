@@ -1,22 +1,28 @@
 //! Scenes: backdrops, objects and the markers that they carry.
 
 use super::expand::Env;
-use super::{Lowering, Mark};
+use super::{LoweredLibrary, Lowering, Mark};
 use crate::geometry::{Pose, Rotation, Vector};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::types::typed;
-use crate::rules::{Backdrop, Library, Marker, Scene, SceneObject, Value};
+use crate::rules::{Backdrop, Marker, Scene, SceneObject, Value};
 
 impl<'a> Lowering<'a> {
     /// A scene, and what its objects are marked as.
-    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[(Library, bool)]) -> (Scene, Vec<Mark>) {
+    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[LoweredLibrary]) -> (Scene, Vec<Mark>) {
         let backdrop = scene.backdrop.as_ref().and_then(|b| self.backdrop(b));
         let (mut objects, mut marks) = (Vec::new(), Vec::new());
         for object in &scene.objects {
             let Some(lowered) = self.object(object, libraries) else {
                 continue;
             };
-            marks.extend(object.marked.as_ref().and_then(|m| self.mark(m, objects.len())));
+            marks.extend(object.marked.as_ref().map(|marked| Mark {
+                object: objects.len(),
+                library: marked.library,
+                layout: marked.layout,
+                class: marked.class,
+                span: marked.span,
+            }));
             objects.push(lowered);
         }
         let scene = Scene {
@@ -28,17 +34,6 @@ impl<'a> Lowering<'a> {
         (scene, marks)
     }
 
-    fn mark(&self, marked: &typed::Marked, object: usize) -> Option<Mark> {
-        let layout = self.typed.libraries.get(marked.library)?.layouts.get(marked.layout)?;
-        Some(Mark {
-            object,
-            library: marked.library,
-            layout: layout.name.clone(),
-            class: marked.class,
-            span: marked.span,
-        })
-    }
-
     fn backdrop(&mut self, backdrop: &'a typed::Expr) -> Option<Backdrop> {
         let call = self.primitive(backdrop, &Env::default())?;
         Some(Backdrop {
@@ -47,10 +42,10 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    fn object(&mut self, object: &'a typed::Object, libraries: &[(Library, bool)]) -> Option<SceneObject> {
+    fn object(&mut self, object: &'a typed::Object, libraries: &[LoweredLibrary]) -> Option<SceneObject> {
         let shape = self.primitive(&object.shape, &Env::default());
-        let at = self.value(&object.at);
-        let yaw = object.turned.as_ref().map(|t| self.value(t));
+        let at = self.value(&object.at, &Env::default());
+        let yaw = object.turned.as_ref().map(|t| self.value(t, &Env::default()));
         let markers = match &object.marked {
             None => Some(Vec::new()),
             Some(marked) => self.markers(marked, libraries),
@@ -69,27 +64,28 @@ impl<'a> Lowering<'a> {
 
     /// A print for every marker that the class has, where the layout puts it. What a
     /// library lacks is said where that library is whole otherwise.
-    fn markers(&mut self, marked: &'a typed::Marked, libraries: &[(Library, bool)]) -> Option<Vec<Marker>> {
-        let typed = &self.typed.libraries[marked.library];
-        let (library, whole) = libraries.get(marked.library)?;
+    fn markers(&mut self, marked: &'a typed::Marked, libraries: &[LoweredLibrary]) -> Option<Vec<Marker>> {
+        let LoweredLibrary {
+            library,
+            layouts,
+            whole,
+        } = libraries.get(marked.library)?;
         let class = library.classes.get(marked.class)?;
-        let layout = typed.layouts.get(marked.layout)?;
         let mut out = Vec::new();
-        for place in &layout.places {
-            if !class.presence.has(place.feature) {
+        for (feature, object_from_marker, _) in &layouts.get(marked.layout)?.as_ref()?.places {
+            if !class.presence.has(*feature) {
                 continue;
             }
-            let (_, object_from_marker) = self.place_pose(place)?;
             let print = library
                 .rules
                 .iter()
-                .filter(|r| r.consequent == place.feature)
+                .filter(|r| r.consequent == *feature)
                 .find_map(|r| Some((r.detect.text("text").ok()?, r.detect.length("size").ok()?)));
             let Some((text, size)) = print else {
                 if !whole {
                     return None;
                 }
-                let name = &library.feature(place.feature).name;
+                let name = &library.feature(*feature).name;
                 let message = format!("no rule says what is printed on `{name}`");
                 let help = "detect it with `qr(text: …, size: …)`";
                 self.report(Diagnostic::new(Code::E0502, marked.span, message).help(help));
@@ -98,7 +94,7 @@ impl<'a> Lowering<'a> {
             out.push(Marker {
                 text: text.to_owned(),
                 size,
-                object_from_marker,
+                object_from_marker: *object_from_marker,
             });
         }
         Some(out)

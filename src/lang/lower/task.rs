@@ -67,7 +67,10 @@ impl<'a> Lowering<'a> {
 
     fn space(&mut self, task: &'a typed::Task) -> Option<Space> {
         let shape = self.primitive(&task.shape, &Env::default());
-        let (centre, voxel) = (self.value(&task.at), self.value(&task.voxel));
+        let (centre, voxel) = (
+            self.value(&task.at, &Env::default()),
+            self.value(&task.voxel, &Env::default()),
+        );
         let shape = shape?;
         let side = |name| shape.length(name).ok();
         let size = match side("edge") {
@@ -82,9 +85,9 @@ impl<'a> Lowering<'a> {
 
     fn thresholds(&mut self, task: &'a typed::Task) -> Option<Thresholds> {
         let (near, absent, confidence) = (
-            self.value(&task.near),
-            self.value(&task.absent),
-            self.value(&task.confidence),
+            self.value(&task.near, &Env::default()),
+            self.value(&task.absent, &Env::default()),
+            self.value(&task.confidence, &Env::default()),
         );
         match (near?, absent?, confidence?) {
             (Value::Length(near), Value::Share(absent), Value::Share(confidence)) => Some(Thresholds {
@@ -97,7 +100,7 @@ impl<'a> Lowering<'a> {
     }
 
     fn share(&mut self, given: Option<&'a typed::Expr>, usual: f64) -> Option<f64> {
-        match given.map(|e| self.value(e)) {
+        match given.map(|e| self.value(e, &Env::default())) {
             None => Some(usual),
             Some(Some(Value::Share(share))) => Some(share),
             Some(_) => None,
@@ -105,7 +108,7 @@ impl<'a> Lowering<'a> {
     }
 
     fn count(&mut self, given: Option<&'a typed::Expr>, usual: u32) -> Option<u32> {
-        match given.map(|e| self.value(e)) {
+        match given.map(|e| self.value(e, &Env::default())) {
             None => Some(usual),
             // More than any run can count is the same as all.
             Some(Some(Value::Count(n))) => Some(u32::try_from(n).unwrap_or(u32::MAX)),

@@ -1,103 +1,157 @@
-//! Definitions that need themselves: the language is total, so there are none.
+//! Definitions that need themselves, and libraries that take themselves over: the
+//! language is total, so there are none.
 
-use super::{DefinitionId, Program};
+use super::{DefinitionId, LibraryId, Program};
 use crate::lang::diagnostics::{Code, Diagnostic};
-use crate::lang::syntax::tree::{Expr, ExprKind};
+use crate::lang::source::Span;
+use crate::lang::syntax::tree::{Expr, ExprKind, Name};
 
-/// Longest chain of definitions that need each other.
+/// Longest chain of definitions, or of libraries, that need each other.
 const DEEPEST: usize = 200;
+
+/// Marks and reports what is circular, and chains that are too long.
+pub(super) fn mark(program: &mut Program) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    let needs = (0..program.definitions.len()).map(|k| definition_needs(program, DefinitionId(k)));
+    for (k, closing) in broken(needs.collect()) {
+        let definition = &mut program.definitions[k];
+        definition.circular = true;
+        let help = "a definition may use others, never itself: there is no recursion";
+        found.push(report("definition", "need", &definition.tree.name, closing).help(help));
+    }
+    let needs = (0..program.libraries.len()).map(|k| library_needs(program, LibraryId(k)));
+    for (k, closing) in broken(needs.collect()) {
+        program.libraries[k].circular = true;
+        let Some((library, _)) = program.library(LibraryId(k)) else {
+            continue;
+        };
+        let help = "a library may take over others, never itself: there is no recursion";
+        found.push(report("library", "take", &library.name, closing).help(help));
+    }
+    found
+}
+
+/// Where a circle closes; none for a chain that is too long.
+type Closing = Option<Span>;
+
+fn report(kind: &str, verb: &str, name: &Name, closing: Closing) -> Diagnostic {
+    let name_text = &name.text;
+    let Some(closing) = closing else {
+        let message = format!("{kind} `{name_text}` {verb}s too long a chain of others");
+        return Diagnostic::new(Code::E0312, name.span, message);
+    };
+    let over = if verb == "take" { " over" } else { "" };
+    Diagnostic::new(
+        Code::E0209,
+        name.span,
+        format!("{kind} `{name_text}` {verb}s itself{over}"),
+    )
+    .related(closing, "the circle closes here")
+}
+
+/// What needs itself, and what needs too long a chain.
+fn broken(needs: Vec<Needs>) -> Vec<(usize, Closing)> {
+    let mut walk = Walk {
+        marks: vec![Mark::New; needs.len()],
+        found: Vec::new(),
+    };
+    for k in 0..needs.len() {
+        walk.visit(&needs, k, None, 0);
+    }
+    walk.found.sort_unstable_by_key(|(k, closing)| (*k, closing.is_none()));
+    walk.found.dedup_by_key(|(k, _)| *k);
+    walk.found
+}
+
+/// What one needs, and where it says so.
+type Needs = Vec<(usize, Span)>;
 
 #[derive(Clone, Copy, PartialEq)]
 enum Mark {
     New,
     Open,
-    Done,
-}
-
-/// Marks and reports circular definitions, and chains that are too long.
-pub(super) fn mark(program: &mut Program) -> Vec<Diagnostic> {
-    let needs: Vec<Vec<DefinitionId>> = (0..program.definitions.len())
-        .map(|k| needs(program, DefinitionId(k)))
-        .collect();
-    let mut walk = Walk {
-        marks: vec![Mark::New; needs.len()],
-        circular: Vec::new(),
-        too_deep: Vec::new(),
-        needs,
-    };
-    for k in 0..walk.marks.len() {
-        walk.visit(k, 0);
-    }
-    let circular = walk.circular.iter().map(|k| (*k, Code::E0209, "needs itself"));
-    let deep = walk
-        .too_deep
-        .iter()
-        .map(|k| (*k, Code::E0312, "needs too long a chain of definitions"));
-    let reports: Vec<_> = circular.chain(deep).collect();
-    let mut found = Vec::new();
-    for (k, code, what) in reports {
-        let definition = &mut program.definitions[k];
-        definition.circular = true;
-        let name = &definition.tree.name;
-        found.push(
-            Diagnostic::new(code, name.span, format!("definition `{}` {what}", name.text))
-                .help("a definition may use others, never itself: there is no recursion"),
-        );
-    }
-    found
+    /// With the length of the longest chain from here.
+    Done(usize),
 }
 
 struct Walk {
     marks: Vec<Mark>,
-    needs: Vec<Vec<DefinitionId>>,
-    circular: Vec<usize>,
-    too_deep: Vec<usize>,
+    found: Vec<(usize, Closing)>,
 }
 
 impl Walk {
-    fn visit(&mut self, k: usize, depth: usize) {
+    /// The length of the longest chain from here; what is broken counts as none.
+    fn visit(&mut self, needs: &[Needs], k: usize, from: Closing, depth: usize) -> usize {
         match self.marks[k] {
-            Mark::Done => return,
-            Mark::Open => return self.circular.push(k),
-            Mark::New if depth > DEEPEST => return self.too_deep.push(k),
+            Mark::Done(length) => return length,
+            Mark::Open => return self.broken(k, from),
+            Mark::New if depth > DEEPEST => return self.broken(k, None),
             Mark::New => self.marks[k] = Mark::Open,
         }
-        for next in self.needs[k].clone() {
-            self.visit(next.0, depth + 1);
+        let mut longest = 0;
+        for (next, at) in &needs[k] {
+            longest = longest.max(self.visit(needs, *next, Some(*at), depth + 1));
         }
-        self.marks[k] = Mark::Done;
+        let length = if longest < DEEPEST {
+            longest + 1
+        } else {
+            self.broken(k, None)
+        };
+        self.marks[k] = Mark::Done(length);
+        length
+    }
+
+    fn broken(&mut self, k: usize, closing: Closing) -> usize {
+        self.found.push((k, closing));
+        0
     }
 }
 
-/// The definitions that the body of one names.
-fn needs(program: &Program, id: DefinitionId) -> Vec<DefinitionId> {
+/// The definitions that the body and the defaults of one name.
+fn definition_needs(program: &Program, id: DefinitionId) -> Needs {
     let definition = program.definition(id);
     let scope = &program.modules[definition.module].scope;
     let parameters = &definition.tree.parameters;
     let mut out = Vec::new();
-    names(&definition.tree.body, &mut |name| {
-        if !parameters.iter().any(|p| p.name.text == name)
-            && let Some(Some(id)) = scope.get(name)
-        {
-            out.push(*id);
+    let mut see = |name: &Name| {
+        if let Some(Some(id)) = scope.get(&name.text) {
+            out.push((id.0, name.span));
+        }
+    };
+    mentioned(&definition.tree.body, &mut |name| {
+        if !parameters.iter().any(|p| p.name.text == name.text) {
+            see(name);
         }
     });
+    for default in parameters.iter().filter_map(|p| p.default.as_ref()) {
+        mentioned(default, &mut see);
+    }
     out
 }
 
+/// The libraries that one takes over.
+fn library_needs(program: &Program, id: LibraryId) -> Needs {
+    let Some((library, module)) = program.library(id) else {
+        return Vec::new();
+    };
+    let uses = library.uses.iter().map(|u| &u.call.name);
+    uses.filter_map(|name| Some(((*module.libraries.get(&name.text)?)?.0, name.span)))
+        .collect()
+}
+
 /// Calls `see` with every name that an expression calls or refers to.
-fn names(expr: &Expr, see: &mut impl FnMut(&str)) {
+pub(in crate::lang) fn mentioned(expr: &Expr, see: &mut impl FnMut(&Name)) {
     match &expr.kind {
-        ExprKind::Reference(reference) => see(&reference.name.text),
+        ExprKind::Reference(reference) => see(&reference.name),
         ExprKind::Call(call) => {
-            see(&call.name.text);
-            call.arguments.iter().for_each(|a| names(&a.value, see));
+            see(&call.name);
+            call.arguments.iter().for_each(|a| mentioned(&a.value, see));
         }
-        ExprKind::List(items) => items.iter().for_each(|e| names(e, see)),
-        ExprKind::Group(e) | ExprKind::Negate(e) => names(e, see),
+        ExprKind::List(items) => items.iter().for_each(|e| mentioned(e, see)),
+        ExprKind::Group(e) | ExprKind::Negate(e) => mentioned(e, see),
         ExprKind::Binary(_, a, b) | ExprKind::Else(a, b) => {
-            names(a, see);
-            names(b, see);
+            mentioned(a, see);
+            mentioned(b, see);
         }
         ExprKind::Quantity(_) | ExprKind::Text(_) | ExprKind::Colour(_) | ExprKind::Direction(..) => {}
     }

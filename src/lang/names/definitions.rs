@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::modules::Loaded;
 use super::suggest::{closest, one_of};
-use super::{Definition, DefinitionId, Module, Program, declared_twice};
+use super::{Definition, DefinitionId, LibraryId, LibraryItem, Module, Program, declared_twice};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::{SourceMap, Span};
 use crate::lang::syntax::tree;
@@ -13,11 +13,11 @@ use crate::primitives;
 /// Ties modules together.
 pub(super) fn resolve(loaded: Vec<Loaded>, sources: &SourceMap) -> (Program, Vec<Diagnostic>) {
     let mut found = Vec::new();
-    let mut definitions = Vec::new();
+    let mut all = All::default();
     let own: Vec<Own> = loaded
         .iter()
         .enumerate()
-        .map(|(k, module)| define(k, module, &mut definitions, &mut found))
+        .map(|(k, module)| define(k, module, &mut all, &mut found))
         .collect();
     let lost: Vec<BTreeSet<String>> = loaded.iter().map(|m| words(&m.tree.bad, sources)).collect();
     let modules = (0..loaded.len())
@@ -29,45 +29,98 @@ pub(super) fn resolve(loaded: Vec<Loaded>, sources: &SourceMap) -> (Program, Vec
     let modules = modules
         .into_iter()
         .zip(loaded)
-        .map(|((scope, lost), module)| Module {
+        .map(|(((scope, libraries), lost), module)| Module {
             tree: module.tree,
             scope,
+            libraries,
             lost,
         })
         .collect();
-    (Program { modules, definitions }, found)
+    let program = Program {
+        modules,
+        definitions: all.definitions,
+        libraries: all.libraries,
+    };
+    (program, found)
 }
 
-/// A module's own definitions and where they stand.
-type Own = BTreeMap<String, (DefinitionId, Span)>;
+/// The definitions and libraries of all modules.
+#[derive(Default)]
+struct All {
+    definitions: Vec<Definition>,
+    libraries: Vec<LibraryItem>,
+}
 
-fn define(module: usize, loaded: &Loaded, all: &mut Vec<Definition>, found: &mut Vec<Diagnostic>) -> Own {
+/// What a name of a module's one namespace means.
+#[derive(Clone, Copy)]
+enum Symbol {
+    Definition(DefinitionId),
+    Library(LibraryId),
+}
+
+/// A module's own definitions and libraries, and where they stand.
+type Own = BTreeMap<String, (Symbol, Span)>;
+
+fn define(module: usize, loaded: &Loaded, all: &mut All, found: &mut Vec<Diagnostic>) -> Own {
     let mut own = Own::new();
-    for item in &loaded.tree.items {
-        let tree::Item::Let(item) = item else { continue };
-        if let Some((_, first)) = own.get(&item.name.text) {
-            found.push(declared_twice("definition", &item.name, *first));
-            continue;
+    for (k, item) in loaded.tree.items.iter().enumerate() {
+        let (name, symbol) = match item {
+            tree::Item::Let(item) => {
+                found.extend(redefined(&item.name));
+                (&item.name, all.definition(module, item))
+            }
+            tree::Item::Library(item) => (&item.name, all.library(module, k)),
+            _ => continue,
+        };
+        match own.get(&name.text) {
+            Some((other, first)) => found.push(declared_twice(kind(symbol, *other), name, *first)),
+            None => drop(own.insert(name.text.clone(), (symbol, name.span))),
         }
-        if primitives::find(&item.name.text).is_some() {
-            found.push(
-                Diagnostic::new(
-                    Code::E0202,
-                    item.name.span,
-                    format!("`{}` is a primitive and cannot be defined anew", item.name.text),
-                )
-                .help("give the definition another name"),
-            );
-        }
-        own.insert(item.name.text.clone(), (DefinitionId(all.len()), item.name.span));
-        all.push(Definition {
+    }
+    own
+}
+
+impl All {
+    fn definition(&mut self, module: usize, item: &tree::Let) -> Symbol {
+        self.definitions.push(Definition {
             module,
             tree: item.clone(),
             circular: false,
         });
+        Symbol::Definition(DefinitionId(self.definitions.len() - 1))
     }
-    own
+
+    fn library(&mut self, module: usize, item: usize) -> Symbol {
+        self.libraries.push(LibraryItem {
+            module,
+            item,
+            circular: false,
+        });
+        Symbol::Library(LibraryId(self.libraries.len() - 1))
+    }
 }
+
+/// What to call two things of one name.
+fn kind(a: Symbol, b: Symbol) -> &'static str {
+    match (a, b) {
+        (Symbol::Definition(_), Symbol::Definition(_)) => "definition",
+        (Symbol::Library(_), Symbol::Library(_)) => "library",
+        _ => "",
+    }
+}
+
+/// A definition that has the name of a primitive.
+fn redefined(name: &tree::Name) -> Option<Diagnostic> {
+    primitives::find(&name.text)?;
+    let message = format!("`{}` is a primitive and cannot be defined anew", name.text);
+    Some(Diagnostic::new(Code::E0202, name.span, message).help("give the definition another name"))
+}
+
+/// Definitions and libraries in scope.
+type InScope = (
+    BTreeMap<String, Option<DefinitionId>>,
+    BTreeMap<String, Option<LibraryId>>,
+);
 
 /// The scope of a module: what it defines and what it imports.
 fn import(
@@ -76,9 +129,12 @@ fn import(
     own: &[Own],
     lost: &[BTreeSet<String>],
     found: &mut Vec<Diagnostic>,
-) -> BTreeMap<String, Option<DefinitionId>> {
+) -> InScope {
     let mut places: BTreeMap<String, Span> = own[module].iter().map(|(n, (_, at))| (n.clone(), *at)).collect();
-    let mut scope: BTreeMap<_, _> = own[module].iter().map(|(n, (id, _))| (n.clone(), Some(*id))).collect();
+    let mut scope = InScope::default();
+    for (name, (symbol, _)) in &own[module] {
+        bind(&mut scope, name, Some(*symbol));
+    }
     let uses = loaded[module].tree.items.iter().filter_map(|item| match item {
         tree::Item::Use(import) => Some(import),
         _ => None,
@@ -91,24 +147,42 @@ fn import(
             if let Some(first) = places.get(&name.text) {
                 // Of an import that failed, one report is enough.
                 if target.is_some() {
-                    found.push(declared_twice("definition", name, *first));
+                    found.push(declared_twice("", name, *first));
                 }
                 continue;
             }
-            let id = target.and_then(|t| own[t].get(&name.text)).map(|(id, _)| *id);
-            if let Some(t) = target.filter(|t| id.is_none() && !lost[*t].contains(&name.text)) {
+            let symbol = target.and_then(|t| own[t].get(&name.text)).map(|(symbol, _)| *symbol);
+            if let Some(t) = target.filter(|t| symbol.is_none() && !lost[*t].contains(&name.text)) {
                 found.push(not_there(name, &loaded[t].title, &own[t]));
             }
             places.insert(name.text.clone(), name.span);
-            scope.insert(name.text.clone(), id);
+            bind(&mut scope, &name.text, symbol);
         }
     }
     scope
 }
 
+/// A name whose import failed may have been either.
+fn bind((definitions, libraries): &mut InScope, name: &str, symbol: Option<Symbol>) {
+    if !matches!(symbol, Some(Symbol::Library(_))) {
+        let id = match symbol {
+            Some(Symbol::Definition(id)) => Some(id),
+            _ => None,
+        };
+        definitions.insert(name.to_owned(), id);
+    }
+    if !matches!(symbol, Some(Symbol::Definition(_))) {
+        let id = match symbol {
+            Some(Symbol::Library(id)) => Some(id),
+            _ => None,
+        };
+        libraries.insert(name.to_owned(), id);
+    }
+}
+
 fn nothing_named(import: &tree::Use, own: Option<&Own>) -> Diagnostic {
     let names = own.map_or(String::new(), |own| one_of(own.keys().map(String::as_str)));
-    Diagnostic::new(Code::E0204, import.span, "this import names no definition").help(format!(
+    Diagnostic::new(Code::E0204, import.span, "this import names nothing").help(format!(
         "say what to bring into scope, of {names}: `use module.name` or `use module.{{a, b}}`"
     ))
 }

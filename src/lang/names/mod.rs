@@ -1,7 +1,8 @@
 //! Names: which files make up a program, and what their definitions are called.
 //!
-//! Gives a [`Program`]: modules with trees, and every `let` that each of them can
-//! see. Names inside expressions are resolved later, where their types are known.
+//! Gives a [`Program`]: modules with trees, and every `let` and library that each of
+//! them can see. Names inside expressions are resolved later, where their types are
+//! known.
 
 mod cycles;
 mod definitions;
@@ -22,6 +23,8 @@ pub(super) struct Program {
     pub modules: Vec<Module>,
     /// Every `let` of every module.
     pub definitions: Vec<Definition>,
+    /// Every library of every module.
+    pub libraries: Vec<LibraryItem>,
 }
 
 /// A file with what it can see.
@@ -31,6 +34,8 @@ pub(super) struct Module {
     /// Definitions in scope by name: its own and imported ones. `None` stands for
     /// a name whose import failed, which was reported.
     pub scope: BTreeMap<String, Option<DefinitionId>>,
+    /// Libraries in scope by name, likewise.
+    pub libraries: BTreeMap<String, Option<LibraryId>>,
     /// Words in regions that could not be read: a name among them may well be declared there.
     pub lost: BTreeSet<String>,
 }
@@ -48,10 +53,34 @@ pub(super) struct Definition {
     pub circular: bool,
 }
 
+/// Index into [`Program::libraries`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct LibraryId(pub usize);
+
+/// A library and the module it stands in.
+#[derive(Debug)]
+pub(super) struct LibraryItem {
+    pub module: usize,
+    /// Its place among the module's items.
+    item: usize,
+    /// Whether it takes itself over, which was reported.
+    pub circular: bool,
+}
+
 impl Program {
     /// The main file's module.
     pub fn main(&self) -> &Module {
         &self.modules[0]
+    }
+
+    /// A library with its module.
+    pub fn library(&self, id: LibraryId) -> Option<(&tree::Library, &Module)> {
+        let item = self.libraries.get(id.0)?;
+        let module = self.modules.get(item.module)?;
+        match module.tree.items.get(item.item)? {
+            tree::Item::Library(library) => Some((library, module)),
+            _ => None,
+        }
     }
 
     /// The definition of an id.
@@ -79,6 +108,7 @@ pub(super) fn standard_home(name: &str) -> Option<&'static str> {
         super::stdlib::module(module).is_some_and(|text| {
             text.lines().any(|line| {
                 line.strip_prefix("let ")
+                    .or_else(|| line.strip_prefix("library "))
                     .and_then(|rest| rest.strip_prefix(name))
                     .is_some_and(|rest| rest.starts_with(['(', ' ']))
             })
@@ -86,16 +116,16 @@ pub(super) fn standard_home(name: &str) -> Option<&'static str> {
     })
 }
 
-/// Reports a name that is declared twice.
-fn declared_twice(kind: &str, name: &tree::Name, first: Span) -> Diagnostic {
-    Diagnostic::new(
-        super::diagnostics::Code::E0202,
-        name.span,
-        format!("{kind} `{}` is declared twice", name.text),
-    )
-    .label("declared again")
-    .related(first, "first declared here")
-    .help("give one of them another name")
+pub(super) use cycles::mentioned;
+
+/// Reports a name that is declared twice; `kind` is empty where the two are of
+/// different kinds.
+pub(super) fn declared_twice(kind: &str, name: &tree::Name, first: Span) -> Diagnostic {
+    let message = format!("{kind} `{}` is declared twice", name.text);
+    Diagnostic::new(super::diagnostics::Code::E0202, name.span, message.trim_start())
+        .label("declared again")
+        .related(first, "first declared here")
+        .help("give one of them another name")
 }
 
 /// The first declaration of each name; later ones are reported.

@@ -171,7 +171,10 @@ impl Loader<'_> {
             }
         };
         let file = SourceFile::new(display, path, text);
-        let id = self.sources.add(file);
+        let id = self.sources.add(match key {
+            Key::Standard(_) => file.shipped(),
+            Key::User(_) => file,
+        });
         let Some(at) = invalid else {
             return Some(id);
         };

@@ -48,6 +48,12 @@ const FOREIGN: &[(&str, &str)] = &[
     ("cal", "measure"),
     ("calibrate", "measure"),
     ("pred", "predict"),
+    ("assert", "expect"),
+    ("check", "expect"),
+    ("then", "expect"),
+    ("when", "given"),
+    ("suppose", "given"),
+    ("fact", "test"),
     ("sensor", "camera"),
     ("viewpoints", "views"),
     ("resolution", "voxel"),
@@ -77,7 +83,7 @@ pub(in crate::lang) fn foreign(word: &str) -> Option<&'static str> {
 ///
 /// Damerau–Levenshtein distance up to a third of the length; ties go to the
 /// candidate that sorts first.
-pub(in crate::lang) fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let foreign = foreign(word);
     let most = (word.chars().count() / 3).clamp(1, 4);
     candidates

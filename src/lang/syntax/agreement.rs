@@ -11,7 +11,42 @@ const PROGRAMS: &[&str] = &[
     include_str!("../../../examples/tanks/tanks.vpl"),
     include_str!("../../../stdlib/std/cameras.vpl"),
     include_str!("../../../stdlib/std/solids.vpl"),
+    TEMPLATES,
+    FACTS,
 ];
+const TEMPLATES: &str = "vpl 1
+use \"boxes.vpl\".{tagged_box, crate_of}
+let far(face: polygon, by: length = 2 * 100 mm,
+        at: [number] = [1, 2]) = behind(face: face, depth: by)
+library pair(width: length, prefix: text = \"b\") {
+  feature code[1..2] : marker
+  layout flat { code[1] at [width / 2, 0 mm, 0 mm] facing +x }
+}
+library both {
+  use pair(width: 300 mm); use crate_of
+  class a { code }
+}
+";
+const FACTS: &str = r#"vpl 1
+test "every statement" {
+  library tanks
+  given code[7] detected, code[4] absent
+  given bottom = polygon([[0 m, 0 m, 0 m], [1 m, 0 m, 0 m], [0 m, 1 m, 0 m]]),
+    code[1] at [0 m, 0 m, 0 m] facing +x
+  expect classes tk5, tk9
+  expect class tk9 50 % within 1 %
+  expect confident; expect not contradicted
+  expect next code[3], code[4]
+  expect rules 49
+  expect rule bottom -> side predicts 4
+  expect code[3] weight 0.92 within 0.01
+  expect side predicted 4
+  expect code[2] at [0 m, 0 m, 0 m] facing -x within 1 mm
+  expect code[1] absent
+  expect above(bottom: face, height: 1 m) = [0 m, 0 m, 1 m]
+  expect sphere(radius: 1 m, count: 64) count 64
+}
+"#;
 const SCRAPS: &[&str] = &[
     "",
     " ",
@@ -46,10 +81,19 @@ const SCRAPS: &[&str] = &[
     "\r\n",
     "é",
     "{i}",
+    "use pair(width: 1 m)",
+    "(a: length = 1)",
+    "test \"t\" {",
+    "given",
+    "expect",
+    "detected",
+    "within",
+    "count",
+    "not",
 ];
 
 /// A program with some pieces cut out and scraps put in.
-fn mutated() -> impl Strategy<Value = String> {
+pub(super) fn mutated() -> impl Strategy<Value = String> {
     let change = (any::<prop::sample::Index>(), 0_usize..12, prop::sample::select(SCRAPS));
     (prop::sample::select(PROGRAMS), prop::collection::vec(change, 0..4)).prop_map(|(program, changes)| {
         let mut chars: Vec<char> = program.chars().collect();
@@ -63,7 +107,7 @@ fn mutated() -> impl Strategy<Value = String> {
 }
 
 /// Tokens in any order.
-fn soup() -> impl Strategy<Value = String> {
+pub(super) fn soup() -> impl Strategy<Value = String> {
     prop::collection::vec(prop::sample::select(SCRAPS), 0..40).prop_map(|scraps| format!("vpl 1\n{}", scraps.join(" ")))
 }
 

@@ -19,6 +19,8 @@ pub(super) struct Builder<'a> {
     pub(super) found: Vec<Diagnostic>,
     pub(super) bad: Vec<Span>,
     comments: Vec<Span>,
+    /// Imports that stand inside a library.
+    pub(super) misplaced: Vec<Item>,
 }
 
 pub(super) fn file(id: FileId, text: &str, pairs: Pairs<'_, Rule>) -> (File, Vec<Diagnostic>) {
@@ -34,6 +36,7 @@ pub(super) fn file(id: FileId, text: &str, pairs: Pairs<'_, Rule>) -> (File, Vec
         found: Vec::new(),
         bad: Vec::new(),
         comments,
+        misplaced: Vec::new(),
     };
     let mut edition = None;
     let mut items = Vec::new();
@@ -44,6 +47,7 @@ pub(super) fn file(id: FileId, text: &str, pairs: Pairs<'_, Rule>) -> (File, Vec
             _ => items.extend(b.item(pair)),
         }
     }
+    items.append(&mut b.misplaced);
     let tree = File {
         edition,
         items,
@@ -125,6 +129,7 @@ impl Builder<'_> {
             Rule::tolerant_library => Item::Library(self.library(pair)?),
             Rule::tolerant_task => Item::Task(self.task(pair)?),
             Rule::tolerant_scene => Item::Scene(self.scene(pair)?),
+            Rule::tolerant_test => Item::Test(self.test(pair)?),
             _ => {
                 self.bad(&pair);
                 return None;
@@ -132,12 +137,12 @@ impl Builder<'_> {
         })
     }
 
-    fn use_item(&mut self, pair: Pair<'_, Rule>) -> Option<Use> {
+    pub(super) fn use_item(&mut self, pair: Pair<'_, Rule>) -> Option<Use> {
         let whole = self.span(&pair);
         let (mut path, mut words, mut names, mut grouped) = (None, Vec::new(), Vec::new(), false);
         for part in parts(pair) {
             match part.as_rule() {
-                Rule::text => path = Some(quoted(self, part)),
+                Rule::text => path = Some(quoted(self, part, "a file's path")),
                 Rule::use_group => {
                     grouped = true;
                     names.extend(parts(part).map(|p| name(self.file, &p)));
@@ -186,13 +191,14 @@ impl Builder<'_> {
         })
     }
 
-    fn parameters(&mut self, pair: Pair<'_, Rule>) -> Vec<Parameter> {
+    pub(super) fn parameters(&mut self, pair: Pair<'_, Rule>) -> Vec<Parameter> {
         parts(pair)
             .filter_map(|p| {
                 let mut parts = parts(p);
                 let name = name(self.file, &parts.next()?);
                 let ty = self.type_name(parts.next()?)?;
-                Some(Parameter { name, ty })
+                let default = parts.next().map(|p| expr(self, p));
+                Some(Parameter { name, ty, default })
             })
             .collect()
     }

@@ -28,16 +28,16 @@ pub(super) fn integer(b: &mut Builder<'_>, pair: &Pair<'_, Rule>) -> u64 {
     })
 }
 
-/// The content of a text without holes.
-pub(super) fn quoted(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> Name {
+/// The content of a text without holes; `what` it is, in words.
+pub(super) fn quoted(b: &mut Builder<'_>, pair: Pair<'_, Rule>, what: &str) -> Name {
     let at = b.span(&pair);
     let mut text = String::new();
     for part in text_parts(b, pair) {
         match part {
             TextPart::Literal(literal) => text.push_str(&literal),
             TextPart::Hole(hole) => b.found.push(
-                Diagnostic::new(Code::E0110, hole.span, "a file's path has no `{…}`")
-                    .help("write the path out, `\\{` for a brace"),
+                Diagnostic::new(Code::E0110, hole.span, format!("{what} has no `{{…}}`"))
+                    .help("write it out, `\\{` for a brace"),
             ),
         }
     }
@@ -61,7 +61,7 @@ pub(super) fn expr(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> Expr {
         Rule::text => ExprKind::Text(text_parts(b, pair)),
         Rule::colour => ExprKind::Colour(pair.as_str()[1..].to_owned()),
         Rule::list => ExprKind::List(parts(pair).map(|p| expr(b, p)).collect()),
-        Rule::call => call(b, pair),
+        Rule::call => ExprKind::Call(call(b, pair)),
         _ => match reference(b, pair) {
             Some(reference) => ExprKind::Reference(reference),
             None => ExprKind::List(Vec::new()),
@@ -209,7 +209,7 @@ fn escaped(b: &mut Builder<'_>, pair: &Pair<'_, Rule>) -> Option<char> {
     Some(c)
 }
 
-fn call(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> ExprKind {
+pub(super) fn call(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> Call {
     let at = b.span(&pair);
     let mut title = Name {
         text: String::new(),
@@ -222,7 +222,7 @@ fn call(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> ExprKind {
             _ => arguments.extend(argument(b, part)),
         }
     }
-    ExprKind::Call(Call { name: title, arguments })
+    Call { name: title, arguments }
 }
 
 fn argument(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> Option<Argument> {

@@ -2,23 +2,26 @@
 
 use pest::iterators::Pair;
 
-use super::Rule;
 use super::build::{Builder, children, parts, start_to};
-use super::expressions::{expr, integer, name, reference};
+use super::expressions::{call, expr, integer, name, reference};
 use super::tree::{
-    Class, ClassTable, Feature, FeatureRef, ForEach, Index, Layout, LayoutPlace, Library, Row, Rule as RuleItem,
+    Call, Class, ClassTable, Feature, FeatureRef, ForEach, Inclusion, Index, Item, Layout, LayoutPlace, Library, Row,
+    Rule as RuleItem,
 };
-
+use super::{Rule, syntax_error};
 impl Builder<'_> {
     pub(super) fn library(&mut self, pair: Pair<'_, Rule>) -> Option<Library> {
         let doc = self.doc(&pair);
         let start = self.span(&pair);
         let known = self.bad.len();
-        let mut parts = parts(pair);
+        let mut parts = parts(pair).peekable();
         let title = name(self.file, &parts.next()?);
+        let parameters = parts.next_if(|p| p.as_rule() == Rule::parameters);
         let mut library = Library {
             head: start_to(start, title.span),
             name: title,
+            parameters: parameters.map(|list| self.parameters(list)),
+            uses: Vec::new(),
             features: Vec::new(),
             classes: Vec::new(),
             tables: Vec::new(),
@@ -29,6 +32,7 @@ impl Builder<'_> {
         };
         for part in parts {
             match part.as_rule() {
+                Rule::inclusion => library.uses.extend(self.inclusion(part)),
                 Rule::feature => library.features.extend(self.feature(part)),
                 Rule::class => library.classes.extend(self.class(part)),
                 Rule::tolerant_classes => library.tables.extend(self.table(part)),
@@ -39,6 +43,32 @@ impl Builder<'_> {
         }
         library.whole = self.bad.len() == known;
         Some(library)
+    }
+
+    fn inclusion(&mut self, pair: Pair<'_, Rule>) -> Option<Inclusion> {
+        let whole = self.span(&pair);
+        let part = parts(pair).next()?;
+        let call = match part.as_rule() {
+            Rule::call => call(self, part),
+            Rule::wrong_import => return self.misplaced_import(part),
+            _ => Call {
+                name: name(self.file, &part),
+                arguments: Vec::new(),
+            },
+        };
+        Some(Inclusion { call, span: whole })
+    }
+
+    /// It is reported, and read as if it stood where it should.
+    fn misplaced_import(&mut self, pair: Pair<'_, Rule>) -> Option<Inclusion> {
+        let at = self.span(&pair);
+        self.found.push(
+            syntax_error(at, "an import stands at the top of the file, not in a library")
+                .help("move it above the `library`; inside, `use NAME(…)` takes over a library that is in scope"),
+        );
+        let import = self.use_item(pair)?;
+        self.misplaced.push(Item::Use(import));
+        None
     }
 
     fn feature(&mut self, pair: Pair<'_, Rule>) -> Option<Feature> {
@@ -53,7 +83,7 @@ impl Builder<'_> {
         })
     }
 
-    fn feature_ref(&mut self, pair: Pair<'_, Rule>) -> Option<FeatureRef> {
+    pub(super) fn feature_ref(&mut self, pair: Pair<'_, Rule>) -> Option<FeatureRef> {
         let whole = self.span(&pair);
         let mut parts = parts(pair);
         let title = name(self.file, &parts.next()?);

@@ -6,13 +6,17 @@
 
 #[cfg(test)]
 mod agreement;
+mod block;
 mod build;
 mod expected;
 mod expressions;
+mod facts;
 mod guard;
 mod libraries;
 mod recover;
+mod same;
 mod tasks;
+mod tokens;
 pub mod tree;
 
 use std::num::NonZeroUsize;
@@ -23,6 +27,11 @@ use pest_derive::Parser;
 
 use super::diagnostics::{Code, Diagnostic};
 use super::source::{FileId, Span};
+
+pub use block::block;
+pub(super) use same::same_program;
+pub(super) use tokens::read;
+pub use tokens::{Token, TokenClass, tokens};
 
 /// The generated parser.
 #[derive(Parser)]

@@ -29,6 +29,7 @@ pub enum Item {
     Library(Library),
     Task(Task),
     Scene(Scene),
+    Test(Test),
 }
 
 /// `use std.views.{sphere, ring}`.
@@ -61,6 +62,8 @@ pub struct Let {
 pub struct Parameter {
     pub name: Name,
     pub ty: TypeName,
+    /// What stands in where an argument is left out.
+    pub default: Option<Expr>,
 }
 
 #[derive(Clone, Debug)]
@@ -72,9 +75,14 @@ pub struct TypeName {
     pub span: Span,
 }
 
+/// `library solids { … }`, or a template: `library tagged_box(width: length) { … }`.
 #[derive(Clone, Debug)]
 pub struct Library {
     pub name: Name,
+    /// Those of a template, perhaps none; absent for a library of its own.
+    pub parameters: Option<Vec<Parameter>>,
+    /// Libraries that are taken over.
+    pub uses: Vec<Inclusion>,
     pub features: Vec<Feature>,
     pub classes: Vec<Class>,
     pub tables: Vec<ClassTable>,
@@ -84,6 +92,14 @@ pub struct Library {
     /// Whether every entry could be read.
     pub whole: bool,
     pub doc: String,
+}
+
+/// `use tagged_box(width: 300 mm)`.
+#[derive(Clone, Debug)]
+pub struct Inclusion {
+    /// The library with its arguments, perhaps none.
+    pub call: Call,
+    pub span: Span,
 }
 
 /// `feature code[1..7] : marker many`.
@@ -282,6 +298,91 @@ pub struct Marked {
     pub library: Name,
     pub layout: Name,
     pub class: Name,
+}
+
+/// `test "name" { … }`: what is given, and what is expected then.
+#[derive(Clone, Debug)]
+pub struct Test {
+    /// The text between the quotes.
+    pub name: Name,
+    /// `library` statements; one is meant.
+    pub libraries: Vec<Name>,
+    pub given: Vec<Supposed>,
+    pub expected: Vec<Expectation>,
+    pub head: Span,
+    /// Whether every statement could be read.
+    pub whole: bool,
+    pub doc: String,
+}
+
+/// `code[4] absent`, `bottom = polygon([…])`, `code[1] at […] facing +x`.
+#[derive(Clone, Debug)]
+pub struct Supposed {
+    pub feature: FeatureRef,
+    pub what: Evidence,
+    pub span: Span,
+}
+
+#[derive(Clone, Debug)]
+pub enum Evidence {
+    /// `detected` or `absent`.
+    State(Name),
+    Face(Expr),
+    Marker {
+        at: Expr,
+        facing: Expr,
+    },
+}
+
+/// What stands after `expect`.
+#[derive(Clone, Debug)]
+pub struct Expectation {
+    pub kind: ExpectationKind,
+    pub span: Span,
+}
+
+#[derive(Clone, Debug)]
+pub enum ExpectationKind {
+    /// `classes tk5, tk9`.
+    Classes(Vec<Name>),
+    /// `class tk9 50 % within 1 %`.
+    Class(Name, Expr, Option<Expr>),
+    /// `confident`, `not contradicted`: the word, and whether it holds.
+    Flag(Name, bool),
+    /// `next code[3]`.
+    Next(Vec<FeatureRef>),
+    /// `rules 49`.
+    Rules(Expr),
+    /// `rule bottom -> prism_side predicts 4`.
+    Predicts(RuleHead, Expr),
+    /// `code[1] absent`.
+    State(FeatureRef, Name),
+    /// `code[3] weight 0.92`.
+    Weight(FeatureRef, Expr, Option<Expr>),
+    /// `prism_side predicted 4`.
+    Predicted(FeatureRef, Expr),
+    /// `code[2] at […] facing -x`, `prism_side at polygon([…]) within 1 mm`.
+    Placed(Placed),
+    /// `above(…) = [0 m, 0 m, 1 m] within 1 mm`.
+    Equal(Expr, Expr, Option<Expr>),
+    /// `sphere(radius: 1 m, count: 64) count 64`.
+    Count(Expr, Expr),
+}
+
+/// `bottom, prism_side -> prism_shape`.
+#[derive(Clone, Debug)]
+pub struct RuleHead {
+    pub antecedents: Vec<FeatureRef>,
+    pub consequent: FeatureRef,
+    pub span: Span,
+}
+
+#[derive(Clone, Debug)]
+pub struct Placed {
+    pub feature: FeatureRef,
+    pub at: Expr,
+    pub facing: Option<Expr>,
+    pub within: Option<Expr>,
 }
 
 #[derive(Clone, Debug)]

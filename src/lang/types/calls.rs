@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::expressions::{Due, constant, made};
+use super::parameters::Slot;
 use super::scope::Scope;
 use super::typed::{Expr, ExprKind};
 use super::{Checker, units};
@@ -11,16 +12,7 @@ use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::names::{DefinitionId, standard_home};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree;
-use crate::primitives::{self, Default, Primitive, Type};
-
-/// A parameter of whatever is called.
-#[derive(Clone, Copy)]
-struct Wanted<'a> {
-    name: &'a str,
-    /// `None` where its declaration is wrong.
-    ty: Option<Type>,
-    required: bool,
-}
+use crate::primitives::{self, Default, Primitive};
 
 impl Checker<'_> {
     pub(super) fn call(&mut self, call: &tree::Call, span: Span, scope: Scope<'_>) -> Option<Expr> {
@@ -55,13 +47,14 @@ impl Checker<'_> {
         span: Span,
         scope: Scope<'_>,
     ) -> Option<Expr> {
-        let wanted: Vec<Wanted<'_>> = primitive
+        let wanted: Vec<Slot> = primitive
             .parameters
             .iter()
-            .map(|p| Wanted {
-                name: p.name,
+            .map(|p| Slot {
+                name: p.name.to_owned(),
                 ty: Some(p.ty),
-                required: matches!(p.default, Default::Required),
+                optional: !matches!(p.default, Default::Required),
+                span,
             })
             .collect();
         let given = self.arguments(&wanted, call, scope)?;
@@ -86,21 +79,17 @@ impl Checker<'_> {
     ) -> Option<Expr> {
         let ty = self.definition(id);
         let signature = self.signatures[id.0].clone();
-        let wanted: Vec<Wanted<'_>> = signature
-            .iter()
-            .map(|(name, ty)| Wanted {
-                name,
-                ty: *ty,
-                required: true,
-            })
-            .collect();
-        let given = self.arguments(&wanted, call, scope)?;
-        let given = given.into_iter().collect::<Option<Vec<Expr>>>()?;
+        let given = self.arguments(&signature, call, scope)?;
         Some(made(ExprKind::Definition(id, given), ty?, span))
     }
 
     /// The argument of each parameter in order; `None` for the whole where some is wrong.
-    fn arguments(&mut self, wanted: &[Wanted<'_>], call: &tree::Call, scope: Scope<'_>) -> Option<Vec<Option<Expr>>> {
+    pub(super) fn arguments(
+        &mut self,
+        wanted: &[Slot],
+        call: &tree::Call,
+        scope: Scope<'_>,
+    ) -> Option<Vec<Option<Expr>>> {
         let callee = &call.name.text;
         let mut given: Vec<Option<Expr>> = wanted.iter().map(|_| None).collect();
         let mut places: Vec<Option<Span>> = vec![None; wanted.len()];
@@ -147,18 +136,12 @@ impl Checker<'_> {
         right.then_some(given)
     }
 
-    fn named_slot(
-        &mut self,
-        wanted: &[Wanted<'_>],
-        name: &tree::Name,
-        callee: &str,
-        scope: Scope<'_>,
-    ) -> Option<usize> {
+    fn named_slot(&mut self, wanted: &[Slot], name: &tree::Name, callee: &str, scope: Scope<'_>) -> Option<usize> {
         let slot = wanted.iter().position(|w| w.name == name.text);
         if slot.is_some() || scope.lost(callee) {
             return slot;
         }
-        let names = || wanted.iter().map(|w| w.name);
+        let names = || wanted.iter().map(|w| w.name.as_str());
         let out = Diagnostic::new(
             Code::E0304,
             name.span,
@@ -175,7 +158,7 @@ impl Checker<'_> {
         None
     }
 
-    fn positional_slot(&mut self, wanted: &[Wanted<'_>], k: usize, span: Span, callee: &str) -> Option<usize> {
+    fn positional_slot(&mut self, wanted: &[Slot], k: usize, span: Span, callee: &str) -> Option<usize> {
         if k < wanted.len() {
             return Some(k);
         }
@@ -188,11 +171,11 @@ impl Checker<'_> {
         None
     }
 
-    fn all_given(&mut self, wanted: &[Wanted<'_>], places: &[Option<Span>], call: &tree::Call) -> bool {
-        let missing: Vec<&Wanted<'_>> = wanted
+    fn all_given(&mut self, wanted: &[Slot], places: &[Option<Span>], call: &tree::Call) -> bool {
+        let missing: Vec<&Slot> = wanted
             .iter()
             .zip(places)
-            .filter(|(w, place)| w.required && place.is_none())
+            .filter(|(w, place)| !w.optional && place.is_none())
             .map(|(w, _)| w)
             .collect();
         // An unknown argument is probably the missing one by another name.
@@ -224,8 +207,11 @@ impl Checker<'_> {
     }
 
     pub(super) fn unknown_callee(&mut self, name: &tree::Name, scope: Scope<'_>) {
-        if scope.lost(&name.text) || !self.unknown.insert(name.text.clone()) {
+        if scope.lost(&name.text) || !self.first_time("name", name) {
             return;
+        }
+        if scope.module.libraries.contains_key(&name.text) {
+            return self.library_as_value(name);
         }
         let out = Diagnostic::new(
             Code::E0203,
@@ -234,22 +220,31 @@ impl Checker<'_> {
         );
         let known = scope.module.scope.keys().map(String::as_str);
         let near = closest(&name.text, known.chain(primitives::all().map(|p| p.name)));
-        self.report(match (standard_home(&name.text), near) {
-            (Some(module), _) => self.with_import(out, module, &name.text),
+        let out = match (standard_home(&name.text), near) {
+            (Some(module), _) => self.with_import(out, module, &name.text, scope),
             (None, Some(near)) => {
                 out.help(format!("did you mean `{near}`?"))
                     .fix(format!("write `{near}`"), name.span, near)
             }
             (None, None) => out.help("define it with `let`, or import it with `use`"),
-        });
+        };
+        self.report(out);
+    }
+
+    /// Reports a library that stands where a value is due.
+    pub(super) fn library_as_value(&mut self, name: &tree::Name) {
+        let message = format!("`{}` is a library, and no value", name.text);
+        self.report(
+            Diagnostic::new(Code::E0203, name.span, message)
+                .help(format!("take it over inside of a library, with `use {}`", name.text)),
+        );
     }
 
     /// Offers the import of a name of the standard library.
-    fn with_import(&self, out: Diagnostic, module: &str, name: &str) -> Diagnostic {
+    pub(super) fn with_import(&self, out: Diagnostic, module: &str, name: &str, scope: Scope<'_>) -> Diagnostic {
         let line = format!("use std.{module}.{name}");
-        let tree = &self.program.main().tree;
         let out = out.help(format!("it is in the standard library: add `{line}`"));
-        match &tree.edition {
+        match &scope.module.tree.edition {
             Some(edition) if edition.span.file == out.primary.span.file => {
                 let at = edition.span.after();
                 out.fix(format!("add `{line}`"), at, format!("\n\n{line}"))
@@ -259,6 +254,6 @@ impl Checker<'_> {
     }
 }
 
-fn list_names(wanted: &[Wanted<'_>]) -> String {
-    one_of(wanted.iter().map(|w| w.name)).replace(" or ", " and ")
+fn list_names(wanted: &[Slot]) -> String {
+    one_of(wanted.iter().map(|w| w.name.as_str())).replace(" or ", " and ")
 }

@@ -85,7 +85,7 @@ impl Checker<'_> {
     }
 
     fn in_a_rule(&mut self, span: Span, scope: Scope<'_>) -> Option<()> {
-        if scope.rule.is_some() || scope.parameters.is_some() {
+        if scope.in_a_rule() {
             return Some(());
         }
         self.report(

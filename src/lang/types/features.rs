@@ -3,16 +3,20 @@
 use std::collections::BTreeMap;
 
 use super::Checker;
-use super::scope::{RuleScope, declared, index_use};
+use super::inclusion::Taken;
+use super::scope::{Scope, declared, index_use};
 use super::typed::{Families, Family, Feature, FeatureUse, IndexUse, Members};
 use crate::lang::diagnostics::{Code, Diagnostic};
-use crate::lang::names::suggest::{closest, one_of};
+use crate::lang::names::{
+    self,
+    suggest::{closest, one_of},
+};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, Index};
 use crate::rules::{FeatureId, FeatureKind};
 
 /// Most features of a library.
-const MOST_FEATURES: usize = 4_096;
+pub(super) const MOST_FEATURES: usize = 4_096;
 
 const KINDS: &[(&str, FeatureKind)] = &[
     ("polygon", FeatureKind::Polygon),
@@ -22,38 +26,43 @@ const KINDS: &[(&str, FeatureKind)] = &[
 
 impl Checker<'_> {
     /// The features of a library in order, and the families that they form.
-    pub(super) fn families(&mut self, library: &tree::Library) -> (Families, Vec<Feature>) {
+    pub(super) fn families(&mut self, library: &tree::Library, taken: &mut Vec<Taken>) -> (Families, Vec<Feature>) {
         let mut families = Families::default();
         let mut features: Vec<Feature> = Vec::new();
+        let before = taken.len();
+        let mut waiting = std::mem::take(taken).into_iter().peekable();
         for declared in &library.features {
-            let name = &declared.name.name;
-            if let Some(first) = families.0.get(&name.text) {
-                let first = first.span;
-                let out = Diagnostic::new(
-                    Code::E0202,
-                    name.span,
-                    format!("feature `{}` is declared twice", name.text),
-                );
-                self.report(out.label("declared again").related(first, "first declared here"));
-                continue;
+            while let Some(next) = waiting.next_if(|t| t.at < declared.span) {
+                taken.extend(self.take_features(next, &mut families, &mut features));
             }
-            let Some(kind) = self.feature_kind(&declared.kind) else {
-                continue;
-            };
-            let Some(members) = self.members(declared, kind, &mut features) else {
-                continue;
-            };
-            families.0.insert(
-                name.text.clone(),
-                Family {
-                    kind,
-                    members,
-                    span: name.span,
-                },
-            );
+            self.declare(declared, &mut families, &mut features);
         }
+        for next in waiting {
+            taken.extend(self.take_features(next, &mut families, &mut features));
+        }
+        families.open |= taken.len() < before;
         self.confusable(&families);
         (families, features)
+    }
+
+    fn declare(&mut self, declared: &tree::Feature, families: &mut Families, features: &mut Vec<Feature>) {
+        let name = &declared.name.name;
+        if let Some(first) = families.by_name.get(&name.text) {
+            self.report(names::declared_twice("feature", name, first.span));
+            return;
+        }
+        let family = self.feature_kind(&declared.kind).and_then(|kind| {
+            let members = self.members(declared, kind, features)?;
+            Some(Family {
+                kind,
+                members,
+                span: name.span,
+            })
+        });
+        match family {
+            Some(family) => drop(families.by_name.insert(name.text.clone(), family)),
+            None => drop(families.lost.insert(name.text.clone())),
+        }
     }
 
     fn feature_kind(&mut self, word: &tree::Name) -> Option<FeatureKind> {
@@ -111,10 +120,10 @@ impl Checker<'_> {
 
     /// `code[1..7]` beside `code1`: one of them is a slip, or will be read as one.
     fn confusable(&mut self, families: &Families) {
-        for (name, family) in &families.0 {
+        for (name, family) in &families.by_name {
             let base = name.trim_end_matches(|c: char| c.is_ascii_digit());
             let index = name[base.len()..].parse::<u64>().ok();
-            let (Some(other), Some(n)) = (families.0.get(base), index) else {
+            let (Some(other), Some(n)) = (families.by_name.get(base), index) else {
                 continue;
             };
             if declared(other).contains(&n) && matches!(family.members, Members::One(_)) {
@@ -132,8 +141,8 @@ impl Checker<'_> {
     }
 
     /// The features that a name with an index, a range or none stands for, in order.
-    pub(super) fn members_of(&mut self, feature: &tree::FeatureRef, families: &Families) -> Option<Vec<FeatureId>> {
-        let family = self.family(&feature.name, families)?;
+    pub(super) fn members_of(&mut self, feature: &tree::FeatureRef, scope: Scope<'_>) -> Option<Vec<FeatureId>> {
+        let family = self.family(&feature.name, scope)?;
         match (&feature.index, &family.members) {
             (None, Members::One(id)) => Some(vec![*id]),
             (None, Members::Indexed(ids)) => Some(ids.values().copied().collect()),
@@ -146,31 +155,25 @@ impl Checker<'_> {
                 None
             }
             _ => {
-                let used = feature_use(
-                    self,
-                    &feature.name,
-                    feature.index.as_ref(),
-                    feature.span,
-                    families,
-                    None,
-                )?;
-                families.resolve(&used, &BTreeMap::new()).map(|id| vec![id])
+                let used = feature_use(self, &feature.name, feature.index.as_ref(), feature.span, scope)?;
+                scope.families?.resolve(&used, &BTreeMap::new()).map(|id| vec![id])
             }
         }
     }
 
-    fn family<'f>(&mut self, name: &tree::Name, families: &'f Families) -> Option<&'f Family> {
-        let found = families.0.get(&name.text);
-        let lost = self.program.main().lost.contains(&name.text);
-        if found.is_none() && !lost && self.unknown.insert(name.text.clone()) {
-            let known = || families.0.keys().map(String::as_str);
+    fn family<'f>(&mut self, name: &tree::Name, scope: Scope<'f>) -> Option<&'f Family> {
+        let families = scope.families?;
+        let found = families.by_name.get(&name.text);
+        let lost = families.open || families.lost.contains(&name.text) || scope.lost(&name.text);
+        if found.is_none() && !lost && self.first_time("feature", name) {
+            let known = || families.by_name.keys().map(String::as_str);
             let out = Diagnostic::new(Code::E0207, name.span, format!("there is no feature `{}`", name.text));
             self.report(match closest(&name.text, known()) {
                 Some(near) => {
                     out.help(format!("did you mean `{near}`?"))
                         .fix(format!("write `{near}`"), name.span, near)
                 }
-                None if families.0.is_empty() => out.help("declare it: `feature name : polygon`"),
+                None if families.by_name.is_empty() => out.help("declare it: `feature name : polygon`"),
                 None => out.help(format!("the library has {}", one_of(known()).replace(" or ", " and "))),
             });
         }
@@ -199,10 +202,9 @@ pub(super) fn feature_use(
     name: &tree::Name,
     index: Option<&Index>,
     span: Span,
-    families: &Families,
-    rule: Option<&RuleScope<'_>>,
+    scope: Scope<'_>,
 ) -> Option<FeatureUse> {
-    let family = checker.family(name, families)?;
+    let family = checker.family(name, scope)?;
     let at = index.map_or(span, Index::span);
     let Some(used) = index_use(index) else {
         checker.report(
@@ -230,7 +232,7 @@ pub(super) fn feature_use(
         }
         (IndexUse::Literal(n), Members::Indexed(ids)) if ids.contains_key(n) => {}
         (IndexUse::Variable(v), Members::Indexed(_)) => {
-            let known = rule.is_some_and(|r| r.indices.iter().any(|(name, _)| name == v));
+            let known = scope.rule.is_some_and(|r| r.indices.iter().any(|(name, _)| name == v));
             if !known {
                 checker.report(
                     Diagnostic::new(Code::E0210, at, format!("`{v}` is no index variable here"))

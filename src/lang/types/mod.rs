@@ -4,27 +4,39 @@
 //! lowering expands. What is wrong is left out of it, and said once.
 
 mod calls;
+mod classes;
 mod colours;
+mod expectations;
 mod expressions;
+mod facts;
+mod fallbacks;
 mod features;
 mod forms;
+mod inclusion;
+mod layouts;
 mod library;
 mod operators;
+mod parameters;
 mod references;
 mod rule;
 mod scene;
 mod scope;
+mod shadowing;
+pub(super) mod stated;
 mod task;
 pub(super) mod typed;
 pub(super) mod units;
 mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
-use super::diagnostics::{Code, Diagnostic};
-use super::names::{self, DefinitionId, Program, suggest::did_you_mean};
+use super::diagnostics::Diagnostic;
+use super::names::{self, DefinitionId, LibraryId, Program};
+use super::source::FileId;
 use super::syntax::tree;
 use crate::primitives::Type;
+use parameters::{Slot, visible};
 use scope::Scope;
 
 /// Checks a program.
@@ -32,15 +44,20 @@ pub(super) fn check(program: &Program) -> (typed::Program, Vec<Diagnostic>) {
     let mut checker = Checker {
         program,
         signatures: Vec::new(),
+        library_signatures: Vec::new(),
         definitions: (0..program.definitions.len()).map(|_| State::New).collect(),
+        libraries: vec![None; program.libraries.len()],
+        parts_taken: 0,
+        known_coverage: BTreeMap::new(),
         unknown: BTreeSet::new(),
         found: Vec::new(),
     };
-    checker.signatures = (0..program.definitions.len())
-        .map(|k| checker.signature(DefinitionId(k)))
-        .collect();
+    checker.all_signatures();
     for k in 0..program.definitions.len() {
         checker.definition(DefinitionId(k));
+    }
+    for k in 0..program.libraries.len() {
+        checker.library(LibraryId(k));
     }
     let mut out = checker.items(&program.main().tree);
     out.definitions = checker.definitions.into_iter().map(State::done).collect();
@@ -49,11 +66,19 @@ pub(super) fn check(program: &Program) -> (typed::Program, Vec<Diagnostic>) {
 
 struct Checker<'a> {
     program: &'a Program,
-    /// The parameters of each definition, those of unknown type as `None`.
-    signatures: Vec<Vec<(String, Option<Type>)>>,
+    /// The parameters of each definition.
+    signatures: Vec<Vec<Slot>>,
+    /// The parameters of each library; none for one that is no template.
+    library_signatures: Vec<Vec<Slot>>,
     definitions: Vec<State>,
-    /// Unknown names that were reported, each once.
-    unknown: BTreeSet<String>,
+    /// By library; `None` until it is checked.
+    libraries: Vec<Option<Rc<typed::Library>>>,
+    /// How many parts of libraries were taken over so far.
+    parts_taken: usize,
+    /// By definition and parameter: whether all its uses stand before an `else`.
+    known_coverage: BTreeMap<(DefinitionId, usize), bool>,
+    /// Unknown names that were reported, each once a file.
+    unknown: BTreeSet<(FileId, &'static str, String)>,
     found: Vec<Diagnostic>,
 }
 
@@ -62,13 +87,20 @@ enum State {
     New,
     /// Its body is being checked, or it is wrong.
     Unusable,
-    Done(typed::Definition),
+    Done(Rc<typed::Definition>),
 }
 
 impl State {
+    fn checked(&self) -> Option<Rc<typed::Definition>> {
+        match self {
+            Self::Done(definition) => Some(Rc::clone(definition)),
+            Self::New | Self::Unusable => None,
+        }
+    }
+
     fn done(self) -> Option<typed::Definition> {
         match self {
-            Self::Done(definition) => Some(definition),
+            Self::Done(definition) => Some(owned(definition)),
             Self::New | Self::Unusable => None,
         }
     }
@@ -79,41 +111,24 @@ impl<'a> Checker<'a> {
         self.found.push(diagnostic);
     }
 
-    fn signature(&mut self, id: DefinitionId) -> Vec<(String, Option<Type>)> {
-        let definition = self.program.definition(id);
-        let parameters = &definition.tree.parameters;
-        names::unique("parameter", parameters.iter().map(|p| &p.name), &mut self.found);
-        parameters
-            .iter()
-            .map(|p| (p.name.text.clone(), self.type_name(&p.ty)))
-            .collect()
+    /// Whether an unknown name of a kind is met for the first time in its file.
+    fn first_time(&mut self, kind: &'static str, name: &tree::Name) -> bool {
+        self.unknown.insert((name.span.file, kind, name.text.clone()))
     }
 
-    fn type_name(&mut self, name: &tree::TypeName) -> Option<Type> {
-        let element = &name.element;
-        let Some(mut ty) = units::named(&element.text) else {
-            let known = units::NAMED.iter().map(|(name, _)| *name);
-            let help = did_you_mean(&element.text, known.clone())
-                .unwrap_or_else(|| format!("types are {}", known.collect::<Vec<_>>().join(", ")));
-            self.report(
-                Diagnostic::new(
-                    Code::E0201,
-                    element.span,
-                    format!("there is no type `{}`", element.text),
-                )
-                .help(help),
-            );
-            return None;
-        };
-        for _ in 0..name.depth {
-            let Some(list) = units::list_of(ty) else {
-                let message = format!("there are no lists of {}", units::describe(ty));
-                self.report(Diagnostic::new(Code::E0301, name.span, message));
-                return None;
-            };
-            ty = list;
+    fn all_signatures(&mut self) {
+        let program = self.program;
+        for definition in &program.definitions {
+            let signature = self.signature(&definition.tree.parameters);
+            self.signatures.push(signature);
         }
-        Some(ty)
+        for k in 0..program.libraries.len() {
+            let parameters = program
+                .library(LibraryId(k))
+                .and_then(|(tree, _)| tree.parameters.as_deref());
+            let signature = self.signature(parameters.unwrap_or_default());
+            self.library_signatures.push(signature);
+        }
     }
 
     /// Checks a definition now if it was not before; its type, where it has one.
@@ -128,37 +143,63 @@ impl<'a> Checker<'a> {
         if definition.circular {
             return None;
         }
-        let parameters: BTreeMap<String, Option<Type>> = self.signatures[id.0].iter().cloned().collect();
+        let signature = self.signatures[id.0].clone();
+        let module = &program.modules[definition.module];
+        for parameter in &definition.tree.parameters {
+            self.hides_something("parameter", &parameter.name, Scope::of(module));
+        }
+        let defaults = self.defaults(&definition.tree.parameters, &signature, module);
+        let parameters = visible(&signature);
         let scope = Scope {
             parameters: Some(&parameters),
-            ..Scope::of(&program.modules[definition.module])
+            ..Scope::of(module)
         };
         let body = self.infer(&definition.tree.body, scope)?;
         let ty = body.ty;
-        let parameters = self.signatures[id.0].iter().map(|(name, _)| name.clone()).collect();
-        self.definitions[id.0] = State::Done(typed::Definition { parameters, body });
+        let parameters = defaults?;
+        self.definitions[id.0] = State::Done(Rc::new(typed::Definition { parameters, body }));
         Some(ty)
     }
 
     fn items(&mut self, file: &'a tree::File) -> typed::Program {
         let mut out = typed::Program::default();
         let each = |want: fn(&tree::Item) -> Option<&tree::Name>| file.items.iter().filter_map(want);
-        names::unique("library", each(library_name), &mut self.found);
         names::unique("task", each(task_name), &mut self.found);
         names::unique("scene", each(scene_name), &mut self.found);
-        for item in &file.items {
-            if let tree::Item::Library(library) = item {
-                out.libraries.push(self.library(library));
-            }
-        }
+        names::unique("test", each(test_name), &mut self.found);
+        out.libraries = self.listed(file);
         for item in &file.items {
             match item {
                 tree::Item::Task(task) => out.tasks.extend(self.task(task, &out.libraries)),
                 tree::Item::Scene(scene) => out.scenes.push(self.scene(scene, &out.libraries)),
+                tree::Item::Test(test) => out.facts.push(self.fact(test, &out.libraries)),
                 _ => {}
             }
         }
         self.one_object_a_name(file);
+        out
+    }
+
+    /// The libraries that a task can name: those in the main file's scope that are no
+    /// templates, in the order of its text.
+    fn listed(&mut self, file: &tree::File) -> Vec<typed::Library> {
+        let main = self.program.main();
+        let mut seen = BTreeSet::new();
+        let mut out = Vec::new();
+        for name in file.items.iter().flat_map(names_of) {
+            let Some(Some(id)) = main.libraries.get(&name.text) else {
+                continue;
+            };
+            let template = self
+                .program
+                .library(*id)
+                .is_none_or(|(tree, _)| tree.parameters.is_some());
+            if template || !seen.insert(*id) {
+                continue;
+            }
+            let library = self.libraries[id.0].take();
+            out.extend(library.map(owned));
+        }
         out
     }
 
@@ -169,13 +210,6 @@ impl<'a> Checker<'a> {
             _ => None,
         });
         names::unique("object", objects.flatten().map(|o| &o.name), &mut self.found);
-    }
-}
-
-fn library_name(item: &tree::Item) -> Option<&tree::Name> {
-    match item {
-        tree::Item::Library(library) => Some(&library.name),
-        _ => None,
     }
 }
 
@@ -191,4 +225,25 @@ fn scene_name(item: &tree::Item) -> Option<&tree::Name> {
         tree::Item::Scene(scene) => Some(&scene.name),
         _ => None,
     }
+}
+
+fn test_name(item: &tree::Item) -> Option<&tree::Name> {
+    match item {
+        tree::Item::Test(test) => Some(&test.name),
+        _ => None,
+    }
+}
+
+/// The libraries that an item may bring into scope.
+fn names_of(item: &tree::Item) -> &[tree::Name] {
+    match item {
+        tree::Item::Use(import) => &import.names,
+        tree::Item::Library(library) => std::slice::from_ref(&library.name),
+        _ => &[],
+    }
+}
+
+/// What is shared with nobody any more.
+fn owned<T: Clone>(shared: Rc<T>) -> T {
+    Rc::try_unwrap(shared).unwrap_or_else(|shared| (*shared).clone())
 }

@@ -18,8 +18,7 @@ impl Checker<'_> {
     pub(super) fn reference(&mut self, r: &tree::Reference, scope: Scope<'_>) -> Option<Expr> {
         let name = &r.name.text;
         if let Some(ty) = scope.parameter(name) {
-            self.no_parts(r, "a parameter")?;
-            return Some(made(ExprKind::Parameter(name.clone()), ty?, r.span));
+            return self.parameter(r, ty?);
         }
         if let Some(ty) = scope.variable(name) {
             self.no_parts(r, "a `for each` variable")?;
@@ -33,6 +32,23 @@ impl Checker<'_> {
             Some(None) => None,
             None => self.bare_word(r, scope),
         }
+    }
+
+    /// `width`, or `face.edges` where the parameter is a face.
+    fn parameter(&mut self, r: &tree::Reference, ty: Type) -> Option<Expr> {
+        let name = &r.name.text;
+        if r.index.is_none() && r.fields.is_empty() {
+            return Some(made(ExprKind::Parameter(name.clone()), ty, r.span));
+        }
+        let (Type::Polygon, None, [field]) = (ty, &r.index, r.fields.as_slice()) else {
+            let message = format!("`{name}` is {} and has no parts", units::describe(ty));
+            let out = Diagnostic::new(Code::E0206, r.span, message);
+            self.report(out.help("attributes are read from a feature, or from a parameter of type `polygon`"));
+            return None;
+        };
+        let found = self.attribute(name, field, FeatureKind::Polygon)?;
+        let kind = ExprKind::ParameterAttribute(name.clone(), found.name);
+        Some(made(kind, found.ty, r.span))
     }
 
     fn no_parts(&mut self, r: &tree::Reference, what: &str) -> Option<()> {
@@ -54,12 +70,14 @@ impl Checker<'_> {
     fn bare_definition(&mut self, id: DefinitionId, r: &tree::Reference) -> Option<Expr> {
         self.no_parts(r, "a definition")?;
         let parameters = &self.signatures[id.0];
-        if parameters.is_empty() {
+        if parameters.iter().all(|p| p.optional) {
+            let arguments = parameters.iter().map(|_| None).collect();
             let ty = self.definition(id)?;
-            return Some(made(ExprKind::Definition(id, Vec::new()), ty, r.span));
+            return Some(made(ExprKind::Definition(id, arguments), ty, r.span));
         }
-        let names: Vec<&str> = parameters.iter().map(|(name, _)| name.as_str()).collect();
-        let help = format!("call it: `{}({}: …)`", r.name.text, names.join(": …, "));
+        let required = parameters.iter().filter(|p| !p.optional);
+        let names: Vec<String> = required.map(|p| format!("{}: …", p.name)).collect();
+        let help = format!("call it: `{}({})`", r.name.text, names.join(", "));
         let message = format!("`{}` needs arguments", r.name.text);
         self.report(Diagnostic::new(Code::E0303, r.span, message).help(help));
         None
@@ -96,16 +114,21 @@ impl Checker<'_> {
     }
 
     fn unknown_name(&mut self, name: &tree::Name, scope: Scope<'_>) {
-        if scope.lost(&name.text) || !self.unknown.insert(name.text.clone()) {
+        if scope.lost(&name.text) || !self.first_time("name", name) {
             return;
+        }
+        if scope.module.libraries.contains_key(&name.text) {
+            return self.library_as_value(name);
         }
         let mut known: Vec<&str> = scope.module.scope.keys().map(String::as_str).collect();
         if let Some(parameters) = scope.parameters {
             known.extend(parameters.keys().map(String::as_str));
         }
         if let Some(rule) = scope.rule {
-            known.extend(rule.families.0.keys().map(String::as_str));
             known.extend(rule.each.iter().map(|(n, _)| n.as_str()));
+        }
+        if let Some(families) = scope.families {
+            known.extend(families.by_name.keys().map(String::as_str));
         }
         for colour in colours::names() {
             known.push(colour);
@@ -126,12 +149,15 @@ impl Checker<'_> {
     }
 
     /// `bottom`, `bottom.edges`, `code[i].pose`.
-    fn feature_part(&mut self, r: &tree::Reference, rule: &RuleScope<'_>, scope: Scope<'_>) -> Option<Expr> {
+    fn feature_part(&mut self, r: &tree::Reference, rule: &RuleScope, scope: Scope<'_>) -> Option<Expr> {
         let family = scope.family(&r.name.text)?;
-        let feature = feature_use(self, &r.name, r.index.as_ref(), r.span, rule.families, Some(rule))?;
+        let feature = feature_use(self, &r.name, r.index.as_ref(), r.span, scope)?;
         let attribute = match r.fields.as_slice() {
             [] => whole_face(self, r, family.kind)?,
-            [field] => self.attribute(&feature, field, family.kind)?,
+            [field] => {
+                let found = self.attribute(&feature.family, field, family.kind)?;
+                (found.name.to_owned(), found.ty)
+            }
             [_, extra, ..] => {
                 let message = format!("`{}` is read from a feature, not from an attribute", extra.text);
                 self.report(Diagnostic::new(Code::E0206, extra.span, message));
@@ -146,19 +172,20 @@ impl Checker<'_> {
     /// The attribute of a kind of feature by name.
     pub(super) fn attribute(
         &mut self,
-        feature: &FeatureUse,
+        owner: &str,
         field: &tree::Name,
         kind: FeatureKind,
-    ) -> Option<(String, Type)> {
-        let known: &[Attribute] = attributes(kind);
-        if let Some(found) = known.iter().find(|a| a.name == field.text) {
-            return Some((found.name.to_owned(), found.ty));
+    ) -> Option<&'static Attribute> {
+        let known: &'static [Attribute] = attributes(kind);
+        let found = known.iter().find(|a| a.name == field.text);
+        if found.is_some() {
+            return found;
         }
         let names = || known.iter().map(|a| a.name);
         let out = Diagnostic::new(
             Code::E0206,
             field.span,
-            format!("a {kind} like `{}` has no attribute `{}`", feature.family, field.text),
+            format!("a {kind} like `{owner}` has no attribute `{}`", field.text),
         );
         self.report(match closest(&field.text, names()) {
             Some(near) => out
@@ -170,7 +197,7 @@ impl Checker<'_> {
     }
 
     /// Only antecedents and the consequent are measured when a rule is looked at.
-    fn in_reach(&mut self, feature: &FeatureUse, rule: &RuleScope<'_>) -> Option<()> {
+    fn in_reach(&mut self, feature: &FeatureUse, rule: &RuleScope) -> Option<()> {
         if rule.role(feature) != Role::Neither {
             return Some(());
         }

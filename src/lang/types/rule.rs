@@ -4,19 +4,21 @@ use super::Checker;
 use super::expressions::Due;
 use super::features::feature_use;
 use super::scope::{Role, RuleScope, Scope, declared, index_use};
-use super::typed::{Each, Expr, ExprKind, Families, FeatureUse, IndexUse, Rule};
+use super::shadowing::hides;
+use super::typed::{Each, Expr, FeatureUse, IndexUse, Rule};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::names;
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, Index};
 use crate::primitives::Type;
 
 impl<'a> Checker<'a> {
-    pub(super) fn rule(&mut self, rule: &'a tree::Rule, families: &Families) -> Option<Rule> {
-        let mut scope = self.rule_scope(rule, families)?;
-        let each = self.each(rule, &mut scope);
+    pub(super) fn rule(&mut self, rule: &'a tree::Rule, outer: Scope<'_>) -> Option<Rule> {
+        let mut scope = self.rule_scope(rule, outer)?;
+        let each = self.each(rule, &mut scope, outer);
         let inside = Scope {
             rule: Some(&scope),
-            ..Scope::of(self.program.main())
+            ..outer
         };
         let detect = self.part(rule, &rule.detect, "detect", Type::Detector, inside);
         let measure = self.part(rule, &rule.measure, "measure", Type::Measure, inside);
@@ -25,6 +27,7 @@ impl<'a> Checker<'a> {
             self.fallbacks(part, &scope, false);
         }
         Some(Rule {
+            environment: None,
             each: each?,
             detect: detect?,
             measure: measure?,
@@ -37,19 +40,22 @@ impl<'a> Checker<'a> {
     }
 
     /// The features and index variables of a rule's `->` line.
-    fn rule_scope<'f>(&mut self, rule: &tree::Rule, families: &'f Families) -> Option<RuleScope<'f>> {
+    fn rule_scope(&mut self, rule: &tree::Rule, outer: Scope<'_>) -> Option<RuleScope> {
         let heads: Vec<&tree::FeatureRef> = rule.antecedents.iter().chain([&rule.consequent]).collect();
-        let indices = self.indices(&heads, families);
+        let indices = self.indices(&heads, outer);
         let mut scope = RuleScope {
-            families,
             antecedents: Vec::new(),
             consequent: plain_use(&rule.consequent),
             each: Vec::new(),
             indices,
         };
+        let inside = Scope {
+            rule: Some(&scope),
+            ..outer
+        };
         let uses: Vec<Option<FeatureUse>> = heads
             .iter()
-            .map(|f| feature_use(self, &f.name, f.index.as_ref(), f.span, families, Some(&scope)))
+            .map(|f| feature_use(self, &f.name, f.index.as_ref(), f.span, inside))
             .collect();
         let mut uses = uses.into_iter().collect::<Option<Vec<_>>>()?;
         scope.consequent = uses.pop()?;
@@ -59,12 +65,13 @@ impl<'a> Checker<'a> {
     }
 
     /// The values of each index variable: those that all its families declare.
-    fn indices(&mut self, heads: &[&tree::FeatureRef], families: &Families) -> Vec<(String, Vec<u64>)> {
+    fn indices(&mut self, heads: &[&tree::FeatureRef], outer: Scope<'_>) -> Vec<(String, Vec<u64>)> {
         let mut out: Vec<(String, Vec<u64>)> = Vec::new();
         for head in heads {
-            let (Some(Index::Variable(name)), Some(family)) = (&head.index, families.0.get(&head.name.text)) else {
+            let (Some(Index::Variable(name)), Some(family)) = (&head.index, outer.family(&head.name.text)) else {
                 continue;
             };
+            self.hides_a_parameter("index variable", name, outer);
             let values = declared(family);
             match out.iter_mut().find(|(n, _)| *n == name.text) {
                 Some((_, known)) => known.retain(|v| values.contains(v)),
@@ -95,19 +102,18 @@ impl<'a> Checker<'a> {
     }
 
     /// `for each` variables, outermost first; each can see those before it.
-    fn each(&mut self, rule: &tree::Rule, scope: &mut RuleScope<'_>) -> Option<Vec<Each>> {
+    fn each(&mut self, rule: &tree::Rule, scope: &mut RuleScope, outer: Scope<'_>) -> Option<Vec<Each>> {
         let mut out = Some(Vec::new());
+        names::unique("variable", rule.each.iter().map(|e| &e.variable), &mut self.found);
         for each in &rule.each {
             let name = &each.variable;
-            let taken = scope.each.iter().any(|(n, _)| *n == name.text)
-                || scope.families.0.contains_key(&name.text)
-                || scope.indices.iter().any(|(n, _)| *n == name.text);
-            if taken {
-                let message = format!("`{}` already means something in this rule", name.text);
-                let out = Diagnostic::new(Code::E0202, name.span, message);
-                self.report(out.help("give the variable another name"));
+            if scope.indices.iter().any(|(n, _)| *n == name.text) {
+                let out = hides("variable", name, "index variable").related(rule.head, "of this rule");
+                self.report(out);
+            } else {
+                self.hides_something("variable", name, outer);
             }
-            let checked = self.one_each(each, scope);
+            let checked = self.one_each(each, scope, outer);
             scope
                 .each
                 .push((name.text.clone(), checked.as_ref().map(|_| Type::Edge)));
@@ -119,17 +125,14 @@ impl<'a> Checker<'a> {
         out
     }
 
-    fn one_each(&mut self, each: &tree::ForEach, scope: &RuleScope<'_>) -> Option<Each> {
+    fn one_each(&mut self, each: &tree::ForEach, scope: &RuleScope, outer: Scope<'_>) -> Option<Each> {
         let over = &each.over;
-        let feature = feature_use(
-            self,
-            &over.name,
-            over.index.as_ref(),
-            over.span,
-            scope.families,
-            Some(scope),
-        )?;
-        let kind = scope.families.0.get(&feature.family)?.kind;
+        let inside = Scope {
+            rule: Some(scope),
+            ..outer
+        };
+        let feature = feature_use(self, &over.name, over.index.as_ref(), over.span, inside)?;
+        let kind = outer.family(&feature.family)?.kind;
         let [field] = over.fields.as_slice() else {
             self.report(
                 Diagnostic::new(
@@ -141,9 +144,13 @@ impl<'a> Checker<'a> {
             );
             return None;
         };
-        let (attribute, ty) = self.attribute(&feature, field, kind)?;
-        if ty != Type::Edges {
-            let message = format!("`{attribute}` is {}, and no list", super::units::describe(ty));
+        let attribute = self.attribute(&feature.family, field, kind)?;
+        if attribute.ty != Type::Edges {
+            let message = format!(
+                "`{}` is {}, and no list",
+                attribute.name,
+                super::units::describe(attribute.ty)
+            );
             let help = format!("`for each` goes over `{}.edges`", feature.family);
             self.report(Diagnostic::new(Code::E0301, field.span, message).help(help));
             return None;
@@ -162,7 +169,7 @@ impl<'a> Checker<'a> {
         Some(Each {
             variable: each.variable.text.clone(),
             feature,
-            attribute,
+            attribute: attribute.name.to_owned(),
         })
     }
 
@@ -213,44 +220,6 @@ impl<'a> Checker<'a> {
             }
             (true, None) => None,
             (false, _) => self.part(rule, &rule.predict, "predict", Type::Predictor, scope),
-        }
-    }
-
-    /// Warns of attributes of the consequent that stand without `else`: they have no
-    /// value before the first instance is measured.
-    fn fallbacks(&mut self, e: &Expr, scope: &RuleScope<'_>, covered: bool) {
-        match &e.kind {
-            ExprKind::Attribute(feature, name) if !covered && scope.role(feature) == Role::Consequent => {
-                self.report(
-                    Diagnostic::new(
-                        Code::W0401,
-                        e.span,
-                        format!(
-                            "`{}.{name}` has no value before the first `{0}` is measured",
-                            feature.family
-                        ),
-                    )
-                    .help("add what holds until then after `else`, of the same type: a length for a height, a point for an apex"),
-                );
-            }
-            ExprKind::Else(a, b) => {
-                self.fallbacks(a, scope, true);
-                self.fallbacks(b, scope, covered);
-            }
-            ExprKind::Binary(_, a, b) => {
-                self.fallbacks(a, scope, covered);
-                self.fallbacks(b, scope, covered);
-            }
-            ExprKind::Negate(a) => self.fallbacks(a, scope, covered),
-            ExprKind::List(items) | ExprKind::Definition(_, items) => {
-                items.iter().for_each(|item| self.fallbacks(item, scope, covered));
-            }
-            ExprKind::Primitive(_, arguments) => {
-                arguments
-                    .values()
-                    .for_each(|argument| self.fallbacks(argument, scope, covered));
-            }
-            _ => {}
         }
     }
 }

@@ -64,17 +64,28 @@ impl<'a> Checker<'a> {
 
     fn marked(&mut self, marked: &tree::Marked, libraries: &[Library]) -> Option<Marked> {
         let Some(library) = libraries.iter().position(|l| l.name == marked.library.text) else {
-            self.unknown_item("library", &marked.library, libraries.iter().map(|l| l.name.as_str()));
+            self.no_library(&marked.library, libraries);
             return None;
         };
         let here = &libraries[library];
+        let main = self.program.main();
         let layout = here.layouts.iter().position(|l| l.name == marked.layout.text);
         if layout.is_none() {
-            self.unknown_item("layout", &marked.layout, here.layouts.iter().map(|l| l.name.as_str()));
+            self.unknown_item(
+                "layout",
+                &marked.layout,
+                here.layouts.iter().map(|l| l.name.as_str()),
+                main,
+            );
         }
         let class = here.classes.iter().position(|c| c.name == marked.class.text);
         if class.is_none() {
-            self.unknown_item("class", &marked.class, here.classes.iter().map(|c| c.name.as_str()));
+            self.unknown_item(
+                "class",
+                &marked.class,
+                here.classes.iter().map(|c| c.name.as_str()),
+                main,
+            );
         }
         Some(Marked {
             library,

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::typed::{Families, Family, FeatureUse, IndexUse, Members};
 use crate::lang::names::Module;
+use crate::lang::source::Span;
 use crate::lang::syntax::tree;
 use crate::primitives::Type;
 
@@ -11,14 +12,18 @@ use crate::primitives::Type;
 #[derive(Clone, Copy)]
 pub(super) struct Scope<'a> {
     pub module: &'a Module,
-    /// Parameters of the definition around it.
-    pub parameters: Option<&'a BTreeMap<String, Option<Type>>>,
-    pub rule: Option<&'a RuleScope<'a>>,
+    /// Parameters of the definition or the template around it.
+    pub parameters: Option<&'a Parameters>,
+    /// The features of the library around it.
+    pub families: Option<&'a Families>,
+    pub rule: Option<&'a RuleScope>,
 }
 
+/// Parameters by name, with their types and places; of unknown type as `None`.
+pub(super) type Parameters = BTreeMap<String, (Option<Type>, Span)>;
+
 /// The rule around an expression.
-pub(super) struct RuleScope<'a> {
-    pub families: &'a Families,
+pub(super) struct RuleScope {
     pub antecedents: Vec<FeatureUse>,
     pub consequent: FeatureUse,
     /// `for each` variables with their types; `None` where that is unknown.
@@ -41,13 +46,14 @@ impl<'a> Scope<'a> {
         Self {
             module,
             parameters: None,
+            families: None,
             rule: None,
         }
     }
 
     /// The type of a parameter; `Some(None)` where it is unknown.
     pub fn parameter(&self, name: &str) -> Option<Option<Type>> {
-        self.parameters?.get(name).copied()
+        self.parameters?.get(name).map(|(ty, _)| *ty)
     }
 
     /// The type of a `for each` variable; `Some(None)` where it is unknown.
@@ -57,7 +63,13 @@ impl<'a> Scope<'a> {
 
     /// The family of a feature name.
     pub fn family(&self, name: &str) -> Option<&'a Family> {
-        self.rule?.families.0.get(name)
+        self.families?.by_name.get(name)
+    }
+
+    /// Whether expressions are evaluated while the robot moves: in a rule, or in a
+    /// definition that a rule may use.
+    pub fn in_a_rule(&self) -> bool {
+        self.rule.is_some() || (self.parameters.is_some() && self.families.is_none())
     }
 
     /// Whether a name may be declared in a region that could not be read.
@@ -66,7 +78,7 @@ impl<'a> Scope<'a> {
     }
 }
 
-impl RuleScope<'_> {
+impl RuleScope {
     /// What a feature is to this rule.
     pub fn role(&self, feature: &FeatureUse) -> Role {
         let same = |other: &FeatureUse| other.family == feature.family && other.index == feature.index;

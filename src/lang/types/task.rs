@@ -8,6 +8,7 @@ use super::forms::SPACES;
 use super::scope::Scope;
 use super::typed::{Expr, Library, Task};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::names::Module;
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, TaskStatementKind as Kind};
@@ -43,8 +44,8 @@ struct Draft {
     method: Option<String>,
     inspected: Option<Inspected>,
     verify: bool,
-    thresholds: BTreeMap<&'static str, Expr>,
-    sensor_model: BTreeMap<&'static str, Expr>,
+    thresholds: BTreeMap<&'static str, Option<Expr>>,
+    sensor_model: BTreeMap<&'static str, Option<Expr>>,
 }
 
 impl<'a> Checker<'a> {
@@ -129,18 +130,45 @@ impl<'a> Checker<'a> {
         if libraries.iter().any(|l| l.name == name.text) {
             return Some(name.text.clone());
         }
-        self.unknown_item("library", name, libraries.iter().map(|l| l.name.as_str()));
+        self.no_library(name, libraries);
         None
+    }
+
+    /// Reports a name that is no library for a task or a scene.
+    pub(super) fn no_library(&mut self, name: &tree::Name, libraries: &[Library]) {
+        let main = self.program.main();
+        let known = libraries.iter().map(|l| l.name.as_str());
+        match main.libraries.get(&name.text) {
+            None => self.unknown_item("library", name, known, main),
+            Some(None) => {}
+            Some(Some(id)) => {
+                let parameters: Vec<String> = self.library_signatures[id.0]
+                    .iter()
+                    .map(|p| format!("{}: …", p.name))
+                    .collect();
+                let call = format!("{}({})", name.text, parameters.join(", "));
+                let at = self.program.library(*id).map_or(name.span, |(tree, _)| tree.head);
+                let message = format!("`{}` is a template, and no library by itself", name.text);
+                self.report(
+                    Diagnostic::new(Code::E0212, name.span, message)
+                        .related(at, "it has parameters")
+                        .help(format!(
+                            "take it over in a library of your own: `library NAME {{ use {call} … }}`"
+                        )),
+                );
+            }
+        }
     }
 
     /// Reports a library, class or layout that is not there.
     pub(super) fn unknown_item<'n>(
         &mut self,
-        kind: &str,
+        kind: &'static str,
         name: &tree::Name,
         known: impl Iterator<Item = &'n str> + Clone,
+        module: &Module,
     ) {
-        if self.program.main().lost.contains(&name.text) || !self.unknown.insert(format!("{kind} {}", name.text)) {
+        if module.lost.contains(&name.text) || !self.first_time(kind, name) {
             return;
         }
         let out = Diagnostic::new(Code::E0208, name.span, format!("there is no {kind} `{}`", name.text));
@@ -188,12 +216,13 @@ impl<'a> Checker<'a> {
         None
     }
 
+    /// Fields by name; `None` for one that is wrong, which is not missing, too.
     fn fields(
         &mut self,
         fields: &[tree::Field],
         known: &[(&'static str, Type)],
         word: &str,
-    ) -> BTreeMap<&'static str, Expr> {
+    ) -> BTreeMap<&'static str, Option<Expr>> {
         let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
         let mut out = BTreeMap::new();
         for field in fields {
@@ -210,14 +239,7 @@ impl<'a> Checker<'a> {
             let what = format!("`{known_name}`");
             let due = Due { ty: *ty, what: &what };
             let value = self.check(&field.value, due, Scope::of(self.program.main()));
-            out.extend(value.map(|value| (*known_name, value)));
-        }
-        // A field that is wrong is not missing, too.
-        for (name, _) in known
-            .iter()
-            .filter(|(n, _)| seen.contains_key(n) && !out.contains_key(n))
-        {
-            self.unknown.insert(format!("{word} {name}"));
+            out.insert(*known_name, value);
         }
         out
     }
@@ -258,9 +280,7 @@ impl<'a> Checker<'a> {
         let missing: Vec<&str> = THRESHOLDS
             .iter()
             .map(|(name, _)| *name)
-            .filter(|name| {
-                !draft.thresholds.contains_key(name) && !self.unknown.contains(&format!("thresholds {name}"))
-            })
+            .filter(|name| !draft.thresholds.contains_key(name))
             .collect();
         if !missing.is_empty() {
             let words: Vec<String> = missing.iter().map(|w| format!("`{w}`")).collect();
@@ -283,16 +303,18 @@ fn assemble(task: &tree::Task, mut draft: Draft) -> Option<Task> {
         at: draft.values.remove("at")?,
         voxel: draft.values.remove("voxel")?,
         views: draft.values.remove("views")?,
-        near: draft.thresholds.remove("near")?,
-        absent: draft.thresholds.remove("absent")?,
-        confidence: draft.thresholds.remove("confidence")?,
+        near: draft.thresholds.remove("near")??,
+        absent: draft.thresholds.remove("absent")??,
+        confidence: draft.thresholds.remove("confidence")??,
         overlap: draft.values.remove("overlap"),
         limit: draft.values.remove("limit"),
         gain_floor: draft.values.remove("gain_floor"),
         method: draft.method.unwrap_or_else(|| USUAL_METHOD.to_owned()),
         inspected: draft.inspected.unwrap_or(Inspected::Observed),
         verify: draft.verify,
-        sensor_model: draft.sensor_model,
+        sensor_model: (draft.sensor_model.into_iter())
+            .filter_map(|(name, e)| Some((name, e?)))
+            .collect(),
         span: task.head,
     })
 }

@@ -1,6 +1,6 @@
 //! The checked program: every name resolved, every expression of one type.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::lang::names::DefinitionId;
 use crate::lang::source::Span;
@@ -16,12 +16,21 @@ pub(in crate::lang) struct Program {
     pub libraries: Vec<Library>,
     pub tasks: Vec<Task>,
     pub scenes: Vec<Scene>,
+    pub facts: Vec<super::stated::Fact>,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(in crate::lang) struct Definition {
-    pub parameters: Vec<String>,
+    pub parameters: Vec<Parameter>,
     pub body: Expr,
+}
+
+/// A parameter of a definition or a template.
+#[derive(Clone, Debug)]
+pub(in crate::lang) struct Parameter {
+    pub name: String,
+    /// Sees no parameters.
+    pub default: Option<Expr>,
 }
 
 #[derive(Clone, Debug)]
@@ -35,8 +44,10 @@ pub(in crate::lang) struct Expr {
 pub(in crate::lang) enum ExprKind {
     Value(Value),
     Text(Vec<TextPart>),
-    /// A parameter of the definition around it.
+    /// A parameter of the definition or the template around it.
     Parameter(String),
+    /// An attribute of a parameter that stands for a feature.
+    ParameterAttribute(String, &'static str),
     /// A `for each` variable.
     Variable(String),
     Attribute(FeatureUse, String),
@@ -46,7 +57,8 @@ pub(in crate::lang) enum ExprKind {
     /// A list, a point or a direction, by the type.
     List(Vec<Expr>),
     Primitive(&'static Primitive, BTreeMap<&'static str, Expr>),
-    Definition(DefinitionId, Vec<Expr>),
+    /// With its arguments; `None` where the default stands in.
+    Definition(DefinitionId, Vec<Option<Expr>>),
 }
 
 #[derive(Clone, Debug)]
@@ -73,7 +85,13 @@ pub(in crate::lang) enum IndexUse {
 
 /// The features of a library by name.
 #[derive(Clone, Debug, Default)]
-pub(in crate::lang) struct Families(pub BTreeMap<String, Family>);
+pub(in crate::lang) struct Families {
+    pub by_name: BTreeMap<String, Family>,
+    /// Names whose declaration is wrong, which was reported.
+    pub lost: BTreeSet<String>,
+    /// Whether some could not be taken over, which was reported.
+    pub open: bool,
+}
 
 #[derive(Clone, Debug)]
 pub(in crate::lang) struct Family {
@@ -91,7 +109,7 @@ pub(in crate::lang) enum Members {
 impl Families {
     /// The feature that a use means, given the index variables.
     pub fn resolve(&self, feature: &FeatureUse, indices: &BTreeMap<String, u64>) -> Option<FeatureId> {
-        match (&self.0.get(&feature.family)?.members, &feature.index) {
+        match (&self.by_name.get(&feature.family)?.members, &feature.index) {
             (Members::One(id), IndexUse::None) => Some(*id),
             (Members::Indexed(ids), IndexUse::Literal(n)) => ids.get(n).copied(),
             (Members::Indexed(ids), IndexUse::Variable(v)) => ids.get(indices.get(v)?).copied(),
@@ -100,9 +118,14 @@ impl Families {
     }
 }
 
-#[derive(Debug)]
+/// A library, with what it takes over.
+#[derive(Clone, Debug)]
 pub(in crate::lang) struct Library {
     pub name: String,
+    /// Those of a template; `None` where they are wrong.
+    pub parameters: Option<Vec<Parameter>>,
+    /// What parameters of the libraries that were taken over stand for.
+    pub environments: Vec<Environment>,
     pub families: Families,
     pub features: Vec<Feature>,
     pub classes: Vec<Class>,
@@ -113,7 +136,29 @@ pub(in crate::lang) struct Library {
     pub whole: bool,
 }
 
-#[derive(Debug)]
+/// What the parameters of a library that was taken over stand for.
+#[derive(Clone, Debug)]
+pub(in crate::lang) struct Environment {
+    /// Where the arguments are evaluated: an earlier environment, or the library itself.
+    pub parent: Option<EnvironmentId>,
+    pub bindings: Vec<Binding>,
+    /// The `use`.
+    pub at: Span,
+}
+
+/// Index into [`Library::environments`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::lang) struct EnvironmentId(pub usize);
+
+#[derive(Clone, Debug)]
+pub(in crate::lang) struct Binding {
+    pub name: String,
+    pub value: Expr,
+    /// Whether it is the parameter's default, which sees no parameters.
+    pub default: bool,
+}
+
+#[derive(Clone, Debug)]
 pub(in crate::lang) struct Feature {
     pub name: String,
     pub kind: FeatureKind,
@@ -121,16 +166,20 @@ pub(in crate::lang) struct Feature {
     pub span: Span,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(in crate::lang) struct Class {
+    /// None for the library's own.
+    pub environment: Option<EnvironmentId>,
     pub name: String,
     pub presence: Vec<bool>,
     pub prior: Option<Expr>,
     pub span: Span,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(in crate::lang) struct Rule {
+    /// None for the library's own.
+    pub environment: Option<EnvironmentId>,
     pub antecedents: Vec<FeatureUse>,
     pub consequent: FeatureUse,
     /// Index variables with the values that all their families have.
@@ -142,21 +191,23 @@ pub(in crate::lang) struct Rule {
     pub span: Span,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(in crate::lang) struct Each {
     pub variable: String,
     pub feature: FeatureUse,
     pub attribute: String,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(in crate::lang) struct Layout {
+    /// None for the library's own.
+    pub environment: Option<EnvironmentId>,
     pub name: String,
     pub places: Vec<LayoutPlace>,
     pub span: Span,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(in crate::lang) struct LayoutPlace {
     pub feature: FeatureId,
     pub at: Expr,

@@ -25,6 +25,17 @@ pub(super) fn all() -> impl Iterator<Item = &'static str> {
     UNITS.iter().map(|(name, ..)| *name).chain(NOUNS.iter().copied())
 }
 
+/// What the last digit of a written number stands for in SI units: 0.001 of
+/// `8.3 %`; `None` of a whole number and of anything but a number.
+pub(in crate::lang) fn last_digit(written: &str) -> Option<f64> {
+    let (whole, rest) = written.split_once('.')?;
+    let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let unit = rest[digits..].trim();
+    let si = if unit.is_empty() { 1.0 } else { find(unit)?.1 };
+    let number = !whole.is_empty() && whole.bytes().all(|b| b.is_ascii_digit()) && digits > 0;
+    number.then(|| si * 0.1_f64.powi(digits as i32))
+}
+
 /// The type of a unit, and what one of it is in SI units.
 pub(super) fn find(unit: &str) -> Option<(Type, f64)> {
     UNITS
@@ -191,6 +202,15 @@ mod tests {
         assert_eq!(of(1.0, "in"), Value::Length(0.0254));
         assert_eq!(of(180.0, "deg"), Value::Angle(PI));
         assert_eq!(of(300.0, "mm"), Value::Length(0.3));
+    }
+
+    #[test]
+    fn the_last_digit_is_that_of_a_fraction() {
+        let close = |written: &str, si: f64| (last_digit(written).unwrap() - si).abs() < 1e-15;
+        assert!(close("8.3 %", 0.001) && close("0.92", 0.01) && close("1.50mm", 1e-5));
+        for other in ["50 %", "1", "x.height", "0.5 + 0.1", "[0.5]", "1.5e3"] {
+            assert_eq!(last_digit(other), None, "{other}");
+        }
     }
 
     #[test]

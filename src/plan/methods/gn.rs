@@ -2,7 +2,7 @@
 
 use rand_pcg::Pcg64;
 
-use super::{Choice, Method, Situation};
+use super::{Choice, Method, Rank, Situation};
 
 pub(super) struct Gn;
 
@@ -12,13 +12,18 @@ impl Method for Gn {
     }
 
     fn choose(&self, situation: &Situation<'_>, _: &mut Pcg64) -> Option<Choice> {
-        let positions = 0..situation.gains.views.len();
-        let (position, score) = situation.best(positions.map(|k| (k, situation.gains.total(k))))?;
-        Some(Choice {
+        let rank = |position: usize| Rank {
             position,
-            score,
+            score: situation.gains.total(position),
             overlap: true,
+            share: None,
+        };
+        let ranks = (0..situation.gains.views.len()).map(rank).collect();
+        let (best, rivals) = situation.ranked(ranks, |rank| rank.score)?;
+        Some(Choice {
+            best,
             relaxed: false,
+            rivals,
         })
     }
 }

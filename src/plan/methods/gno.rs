@@ -5,7 +5,7 @@
 
 use rand_pcg::Pcg64;
 
-use super::{Choice, Method, Situation};
+use super::{Choice, Method, Rank, Situation};
 
 pub(super) struct Gno;
 
@@ -18,22 +18,35 @@ impl Method for Gno {
         let gaining = situation.gaining();
         let shares = situation.overlaps(&gaining);
         let least = situation.knowledge.task.overlap;
-        let both = || gaining.iter().copied().zip(shares.iter().copied());
-        let passing = both().filter(|(_, share)| *share >= least - 1e-9);
-        if let Some((position, score)) = situation.best(passing.map(|(k, _)| (k, situation.gains.total(k)))) {
-            return Some(Choice {
+        let gain = |rank: &Rank| situation.gains.total(rank.position);
+        let rank = |(position, share): (usize, f64)| {
+            let overlap = share >= least - 1e-9;
+            Rank {
                 position,
-                score,
-                overlap: true,
+                score: if overlap { situation.gains.total(position) } else { 0.0 },
+                overlap,
+                share: Some(share),
+            }
+        };
+        let ranks = gaining.into_iter().zip(shares).map(rank);
+        let (passing, failing): (Vec<Rank>, Vec<Rank>) = ranks.partition(|rank| rank.overlap);
+        if let Some((best, mut rivals)) = situation.ranked(passing, gain) {
+            // What only the overlap kept from winning.
+            let stronger = failing.into_iter().filter(|rank| gain(rank) > gain(&best)).collect();
+            if let Some((first, _)) = situation.ranked(stronger, gain) {
+                rivals.push(first);
+            }
+            return Some(Choice {
+                best,
                 relaxed: false,
+                rivals,
             });
         }
-        let (position, _) = situation.best(both())?;
+        let (best, rivals) = situation.ranked(failing, |rank| rank.share.unwrap_or(0.0))?;
         Some(Choice {
-            position,
-            score: 0.0,
-            overlap: false,
+            best,
             relaxed: true,
+            rivals,
         })
     }
 }

@@ -44,18 +44,32 @@ pub struct Situation<'a> {
     pub current: Point,
 }
 
-/// A view and why it was chosen.
+/// How a view stands in a method's ranking.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Choice {
+pub struct Rank {
     /// Position in [`Gains::views`].
     pub position: usize,
     /// The method's value of it; eq. 8 for GN and GNO.
     pub score: f64,
     /// G_ovlp.
     pub overlap: bool,
+    /// The share that G_ovlp judges, where the method asks for it.
+    pub share: Option<f64>,
+}
+
+/// A view and why it was chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// The view.
+    pub best: Rank,
     /// Whether every view with gain failed the overlap constraint.
     pub relaxed: bool,
+    /// A few that it was preferred to, best first; none where the method does not rank.
+    pub rivals: Vec<Rank>,
 }
+
+/// Most views that a choice tells of beside the chosen one.
+const MOST_RIVALS: usize = 3;
 
 /// The method of a name, case-insensitively.
 ///
@@ -90,22 +104,28 @@ impl Situation<'_> {
         positions.par_iter().map(share).collect()
     }
 
-    /// The position of the largest value; of equals the nearest to the current
-    /// view, then the lowest index. Values come in the order of positions.
-    pub fn best(&self, values: impl IntoIterator<Item = (usize, f64)>) -> Option<(usize, f64)> {
-        values.into_iter().reduce(|best, next| {
-            let nearer = || self.distance(next.0) < self.distance(best.0);
-            let better = next.1 > best.1 || (next.1 >= best.1 && nearer());
-            if better { next } else { best }
-        })
+    /// The views of largest value, best first: of equals the nearest to the
+    /// current view, then the lowest index. The first is the choice, the others of
+    /// some value its rivals.
+    pub fn ranked(&self, mut ranks: Vec<Rank>, value: impl Fn(&Rank) -> f64) -> Option<(Rank, Vec<Rank>)> {
+        ranks.sort_by(|a, b| {
+            let nearer = || self.distance(a.position).total_cmp(&self.distance(b.position));
+            let larger = value(b).total_cmp(&value(a));
+            larger.then_with(nearer).then_with(|| a.position.cmp(&b.position))
+        });
+        ranks.truncate(1 + MOST_RIVALS);
+        let mut ranks = ranks.into_iter();
+        let best = ranks.next()?;
+        Some((best, ranks.filter(|rank| value(rank) > 0.0).collect()))
+    }
+
+    /// How far a view is from the current one, metres.
+    pub fn distance(&self, position: usize) -> f64 {
+        (self.view(position).eye() - self.current).norm()
     }
 
     fn view(&self, position: usize) -> &Viewpoint {
         &self.candidates[self.gains.views[position]]
-    }
-
-    fn distance(&self, position: usize) -> f64 {
-        (self.view(position).eye() - self.current).norm()
     }
 }
 

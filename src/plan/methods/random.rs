@@ -3,7 +3,7 @@
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-use super::{Choice, Method, Situation};
+use super::{Choice, Method, Rank, Situation};
 
 pub(super) struct Random;
 
@@ -15,10 +15,14 @@ impl Method for Random {
     fn choose(&self, situation: &Situation<'_>, random: &mut Pcg64) -> Option<Choice> {
         let count = situation.gains.views.len();
         (count > 0).then(|| Choice {
-            position: random.random_range(0..count),
-            score: 0.0,
-            overlap: true,
+            best: Rank {
+                position: random.random_range(0..count),
+                score: 0.0,
+                overlap: true,
+                share: None,
+            },
             relaxed: false,
+            rivals: Vec::new(),
         })
     }
 }

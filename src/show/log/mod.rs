@@ -1,16 +1,22 @@
 //! The run log: JSON Lines, one object a line, as `docs/cli.md` describes.
 //!
 //! Plain records with a fixed key order. What they say comes from the
-//! session's updates and decisions; writing them is the caller's job.
+//! session's updates and decisions; writing them is the caller's job. Keys that
+//! came later are optional, so that older logs are still read.
+
+mod ordered;
+mod read;
+mod start;
 
 use serde::{Deserialize, Serialize};
 
+use crate::detect::Condition;
 use crate::geometry::Pose;
-use crate::plan::{self, Decision, Outcome, Session, Step};
+use crate::plan::{self, Absence, Decision, Outcome, RuleTrace, Step};
 
-/// A map whose entries keep the library's order.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Ordered<T>(pub Vec<(String, T)>);
+pub use ordered::Ordered;
+pub use read::{BadLog, MOST_LINE, Run};
+pub use start::{Class, Criteria, Library, Rule, Start};
 
 /// One line of a run log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,33 +28,6 @@ pub enum Record {
     View(Box<View>),
     /// The outcome.
     End(End),
-}
-
-/// What is run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Start {
-    /// Version of the program.
-    pub vpl: String,
-    /// The task file, as given.
-    pub file: String,
-    /// Name of the task.
-    pub task: String,
-    /// Name of the object, or the mesh file.
-    pub object: String,
-    /// Name of the method.
-    pub method: String,
-    /// Seed of the run.
-    pub seed: u64,
-    /// Name of the depth noise.
-    pub noise: String,
-    /// Most measurements.
-    pub limit: u32,
-    /// Number of candidate views.
-    pub candidates: usize,
-    /// SHA-256 of the compiled rule set.
-    pub rules: String,
-    /// Weight of each feature before anything is seen, bits.
-    pub weights: Ordered<f64>,
 }
 
 /// What a measurement changed, and what comes next.
@@ -70,8 +49,17 @@ pub struct View {
     pub voxels: Voxels,
     /// Completion status.
     pub completion: Completion,
+    /// What rules did of which the statuses do not tell.
+    #[serde(default, skip_serializing_if = "Ordered::is_empty")]
+    pub rules: Ordered<RuleTrace>,
+    /// How features came to count as absent.
+    #[serde(default, skip_serializing_if = "Ordered::is_empty")]
+    pub absent: Ordered<Absence>,
     /// The next best view; `None` exactly at the last view.
     pub next: Option<Next>,
+    /// Why the run stops here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stop: Option<Stop>,
     /// Milliseconds by phase.
     pub ms: Milliseconds,
 }
@@ -109,8 +97,11 @@ pub struct Instance {
     pub inspected: f64,
     /// |PV_ij|.
     pub predicted_voxels: usize,
-    /// Ids of the rules that predict it, the one that counts first.
+    /// Ids of the rules that predict it, in the library's order.
     pub predicted_by: Vec<String>,
+    /// Id of the rule whose prediction counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rule: Option<String>,
 }
 
 /// Voxels by state.
@@ -138,14 +129,60 @@ pub struct Completion {
 /// The next best view.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Next {
+    /// The view.
+    #[serde(flatten)]
+    pub chosen: Standing,
+    /// Whether no view with gain met the overlap constraint.
+    pub relaxed: bool,
+    /// A few views that it was preferred to, best first.
+    #[serde(default)]
+    pub runners_up: Vec<Standing>,
+}
+
+/// How a candidate view stands.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Standing {
     /// Index of the candidate view.
     pub view: usize,
     /// Eq. 8.
     pub score: f64,
     /// What the score is made of.
     pub terms: Terms,
-    /// Whether no view with gain met the overlap constraint.
-    pub relaxed: bool,
+    /// The share that the overlap constraint judges, where the method asks for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub share: Option<f64>,
+    /// From the view before, metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distance: Option<f64>,
+    /// The instance that the feature term comes from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target: Option<Target>,
+}
+
+/// The instance that a view goes for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Target {
+    /// Its feature.
+    pub feature: String,
+    /// Its key.
+    pub key: String,
+    /// Its voxels that the view reaches and that are not yet inspected.
+    pub reached: usize,
+    /// All voxels of its place.
+    pub voxels: usize,
+}
+
+/// Why a run stops.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stop {
+    /// As [`End::outcome`].
+    pub outcome: String,
+    /// What the task asks for: a certain class.
+    pub confident: bool,
+    /// What the task asks for: that no view can gain anything.
+    pub exhausted: bool,
+    /// What a run can end by, and which of it holds.
+    pub because: Vec<Condition>,
 }
 
 /// The terms of eq. 8.
@@ -205,34 +242,6 @@ impl Record {
     pub fn to_line(&self) -> String {
         serde_json::to_string(self).unwrap_or_else(|error| unreachable!("a record is plain data: {error}"))
     }
-
-    /// Reads one line.
-    ///
-    /// # Errors
-    /// It is no record of a run log.
-    pub fn from_line(line: &str) -> Result<Self, serde_json::Error> {
-        serde_json::from_str(line)
-    }
-}
-
-impl Start {
-    /// The start of a session's run.
-    pub fn of(session: &Session, file: &str, object: &str, noise: &str, seed: u64, rules: String) -> Self {
-        let features = session.library().features.iter().map(|f| f.name.clone());
-        Self {
-            vpl: env!("CARGO_PKG_VERSION").to_owned(),
-            file: file.to_owned(),
-            task: session.task().name.clone(),
-            object: object.to_owned(),
-            method: session.method().to_owned(),
-            seed,
-            noise: noise.to_owned(),
-            limit: session.limit(),
-            candidates: session.views().len(),
-            rules,
-            weights: Ordered(features.zip(session.weights()).collect()),
-        }
-    }
 }
 
 impl View {
@@ -262,9 +271,20 @@ impl View {
                 confident: update.completion.confident,
                 exhausted: update.completion.exhausted,
             },
+            rules: Ordered(update.rules.clone()),
+            absent: Ordered(update.absent.clone()),
             next: match &step.decision {
                 Decision::Next(next) => Some(Next::from(next)),
                 Decision::End(_) => None,
+            },
+            stop: match &step.decision {
+                Decision::Next(_) => None,
+                Decision::End(end) => Some(Stop {
+                    outcome: end.outcome.name().to_owned(),
+                    confident: end.goal.confident,
+                    exhausted: end.goal.exhausted,
+                    because: end.because.clone(),
+                }),
             },
             ms,
         }
@@ -297,6 +317,7 @@ impl From<&plan::FeatureReport> for Feature {
             inspected: i.inspected,
             predicted_voxels: i.predicted_voxels,
             predicted_by: i.predicted_by.clone(),
+            rule: i.rule.clone(),
         };
         Self {
             state: report.state.code(),
@@ -310,15 +331,32 @@ impl From<&plan::FeatureReport> for Feature {
 impl From<&plan::Next> for Next {
     fn from(next: &plan::Next) -> Self {
         Self {
-            view: next.view,
-            score: next.score,
-            terms: Terms {
-                overlap: next.terms.overlap.into(),
-                feature: next.terms.feature,
-                surface: next.terms.surface,
-                w: next.terms.w.into(),
-            },
+            chosen: Standing::from(&next.chosen),
             relaxed: next.relaxed,
+            runners_up: next.runners_up.iter().map(Standing::from).collect(),
+        }
+    }
+}
+
+impl From<&plan::Standing> for Standing {
+    fn from(standing: &plan::Standing) -> Self {
+        Self {
+            view: standing.view,
+            score: standing.score,
+            terms: Terms {
+                overlap: standing.terms.overlap.into(),
+                feature: standing.terms.feature,
+                surface: standing.terms.surface,
+                w: standing.terms.w.into(),
+            },
+            share: standing.share,
+            distance: Some(standing.distance),
+            target: standing.target.as_ref().map(|t| Target {
+                feature: t.feature.clone(),
+                key: t.key.clone(),
+                reached: t.reached,
+                voxels: t.voxels,
+            }),
         }
     }
 }
@@ -330,33 +368,5 @@ impl From<&Pose> for LoggedPose {
             position: [t.x, t.y, t.z],
             rotation: [q.w, q.i, q.j, q.k],
         }
-    }
-}
-
-impl<T: Serialize> Serialize for Ordered<T> {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(k, v)| (k, v)))
-    }
-}
-
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Ordered<T> {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries<T>(std::marker::PhantomData<T>);
-        impl<'de, T: Deserialize<'de>> serde::de::Visitor<'de> for Entries<T> {
-            type Value = Ordered<T>;
-
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("an object")
-            }
-
-            fn visit_map<A: serde::de::MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(Ordered(entries))
-            }
-        }
-        deserializer.deserialize_map(Entries(std::marker::PhantomData))
     }
 }

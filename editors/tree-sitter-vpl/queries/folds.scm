@@ -1,0 +1,17 @@
+; What folds: every block in braces, and long lists.
+
+[
+  (use_group)
+  (library)
+  (class)
+  (classes)
+  (rule)
+  (layout)
+  (task)
+  (fields)
+  (scene)
+  (test)
+  (list)
+  (call)
+  (parameters)
+] @fold

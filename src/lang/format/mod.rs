@@ -1,0 +1,91 @@
+//! How programs are laid out: one form for spaces, indentation, columns and breaks.
+//!
+//! Works on the compiler's tokens ([`verbatim`]: which lines are left alone, because
+//! they could not be read) grouped by brackets ([`pieces`]), written line by line
+//! ([`write`]) and put into columns ([`columns`]). It knows brackets and where
+//! statements end, and next to nothing of what they say. Its result is read again
+//! and must be the same program. `vpl fmt` and the language server call it.
+
+mod columns;
+mod edits;
+mod pieces;
+mod spaces;
+#[cfg(test)]
+mod tests;
+mod verbatim;
+mod write;
+
+use super::EDITION;
+use super::source::{FileId, Span};
+use super::syntax::{self, Token, TokenClass};
+
+pub use edits::edits;
+
+/// Longest line that is not broken, in characters without its comment.
+const WIDTH: usize = 100;
+
+/// A text as it should be laid out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Formatted {
+    /// The whole text.
+    pub text: String,
+    /// Parts of the given text that could not be read, and stand as they were written.
+    pub untouched: Vec<Span>,
+    /// Whether the layout was thrown away because it would not have been the same
+    /// program. That is a mistake of the formatter; the text is the given one.
+    pub refused: bool,
+}
+
+/// Lays out a text. Comments stay, and so does the meaning.
+///
+/// Lines end with `\n` and a byte order mark is dropped. A text that the parser does
+/// not take at all, or that is of a newer edition, is untouched as a whole.
+///
+/// # Example
+/// ```
+/// let formatted = vpl::lang::format("vpl 1\nlet a=f( 1mm,2 )");
+/// assert_eq!(formatted.text, "vpl 1\n\nlet a = f(1 mm, 2)\n");
+/// ```
+pub fn format(text: &str) -> Formatted {
+    let reading = syntax::read(text);
+    let verbatim = (reading.parsed && !is_newer(&reading.tokens, text))
+        .then(|| verbatim::lines(text, &reading.tokens, &reading.bad))
+        .flatten();
+    let Some(verbatim) = verbatim else {
+        return kept(text, false);
+    };
+    let written = pieces::pieces(text, &reading.tokens, &verbatim).map(|body| write::lines(text, &body));
+    let Some(out) = written.and_then(|mut lines| {
+        columns::align(&mut lines);
+        columns::join(text, &lines)
+    }) else {
+        return kept(text, false);
+    };
+    if out != text && !syntax::same_program(text, &out) {
+        return kept(text, true);
+    }
+    Formatted {
+        text: out,
+        untouched: verbatim.iter().map(|v| Span::new(FileId(0), v.start, v.end)).collect(),
+        refused: false,
+    }
+}
+
+/// The text as it is.
+fn kept(text: &str, refused: bool) -> Formatted {
+    Formatted {
+        text: text.to_owned(),
+        untouched: vec![Span::new(FileId(0), 0, text.len())],
+        refused,
+    }
+}
+
+fn is_newer(tokens: &[Token], text: &str) -> bool {
+    let trivia = [TokenClass::Newline, TokenClass::Comment, TokenClass::Doc];
+    let mut code = tokens.iter().filter(|t| !trivia.contains(&t.class));
+    let begins = code.next().is_some_and(|t| t.text(text) == "vpl");
+    let edition = code.next().filter(|_| begins);
+    edition
+        .and_then(|t| t.text(text).parse::<u64>().ok())
+        .is_some_and(|e| e > u64::from(EDITION))
+}
