@@ -75,7 +75,7 @@ fn beside(path: &Path, text: &str) -> io::Result<()> {
 
 /// Whether to colour what goes to a stream: on a terminal, where none is not asked for.
 pub(crate) fn coloured(stream: &impl IsTerminal) -> bool {
-    stream.is_terminal() && !std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty())
+    stream.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
 }
 
 /// The form for people on standard error: drawn, as wide as the terminal.

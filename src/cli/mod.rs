@@ -5,6 +5,8 @@ mod compile;
 mod completions;
 mod explain;
 mod files;
+mod fmt;
+mod lsp;
 mod new;
 mod plan;
 mod test;
@@ -34,6 +36,8 @@ enum Verb {
     Check(check::Check),
     Explain(explain::Explain),
     Compile(compile::Compile),
+    Fmt(fmt::Fmt),
+    Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
     Test(test::Test),
     Why(why::Why),
@@ -63,6 +67,9 @@ pub(crate) enum Failure {
     /// A run could not be made or continued.
     #[error("error[{code}]: {0}", code = Code::E0603)]
     Run(String),
+    /// A layout would not have been the same program.
+    #[error("error[{code}]: {0} is left as it is: laid out it would be another program", code = Code::E0604)]
+    Layout(String),
     /// A run log cannot be read.
     #[error("error[{code}]: {0} cannot be read: {1}", code = Code::E0711)]
     Log(String, String),
@@ -101,6 +108,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Check(check) => check::run(&check),
         Verb::Explain(explain) => explain::run(&explain),
         Verb::Compile(compile) => compile::run(&compile),
+        Verb::Fmt(fmt) => fmt::run(&fmt),
+        Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
         Verb::Test(test) => test::run(&test),
         Verb::Why(why) => why::run(&why),

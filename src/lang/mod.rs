@@ -6,83 +6,47 @@
 //! known about a task before the robot moves). Stages collect diagnostics and go
 //! on. Nothing here does I/O: files come through a [`World`].
 
+mod analysis;
 mod checks;
 mod diagnostics;
 mod format;
+pub mod index;
 mod lower;
 mod names;
+mod reading;
 mod repair;
 mod source;
 mod stdlib;
 pub mod syntax;
 mod types;
+pub mod vocabulary;
 mod world;
 
+pub use analysis::{Analysis, Compilation, Expansion, analyse};
 pub use diagnostics::{
     Code, Diagnostic, Edit, Fix, Format, Label, Severity, UnknownCode, edited, explain, index_of_codes, list_of_codes,
     page, render, similar_codes, title,
 };
 pub use format::{Formatted, edits, format};
 pub(crate) use names::suggest::closest;
+pub use reading::read;
 pub use repair::{Applied, Repaired, repair};
 pub use source::{FileId, SourceFile, SourceMap, Span};
 pub use syntax::{Token, TokenClass, tokens};
-pub use world::{MOST_BYTES, Memory, ReadFailure, World};
+pub use world::{MOST_BYTES, Memory, ReadFailure, World, normal};
 
-use crate::rules::{Fact, RuleSet};
+use crate::primitives::Primitive;
 
 /// The language edition that this build reads.
 pub const EDITION: u32 = crate::rules::LANGUAGE;
 
-/// What compiling a program gave.
-#[derive(Debug)]
-pub struct Compilation {
-    /// The compiled program; `Some` exactly when no diagnostic is an error.
-    pub rules: Option<RuleSet>,
-    /// The tests of the main file; none where some diagnostic is an error.
-    pub facts: Vec<Fact>,
-    /// Everything there is to say about it, in the order of the text.
-    pub diagnostics: Vec<Diagnostic>,
-    /// The files that were read. [`crate::rules::Place::file`] is a [`FileId`] here.
-    pub sources: SourceMap,
-}
-
-impl Compilation {
-    /// The same without notes: what a verb that goes on with the program has to say.
-    pub fn without_notes(mut self) -> Self {
-        self.diagnostics.retain(|d| d.severity != Severity::Note);
-        self
-    }
-
-    /// Whether some diagnostic is an error.
-    pub fn has_errors(&self) -> bool {
-        self.diagnostics.iter().any(|d| d.severity == Severity::Error)
-    }
-}
-
 /// Compiles the program at `path`. Never panics, whatever the input.
 pub fn compile(path: &str, world: &dyn World) -> Compilation {
-    let mut sources = SourceMap::default();
-    let (program, mut diagnostics) = names::load(path, world, &mut sources);
-    let rules = program.map(|program| {
-        let (typed, found) = types::check(&program);
-        diagnostics.extend(found);
-        let (lowered, found) = lower::lower(&program, &typed, &sources);
-        diagnostics.extend(found);
-        diagnostics.extend(checks::check(&lowered));
-        (lowered.rules, lowered.facts)
-    });
-    diagnostics::in_order(&mut diagnostics);
-    let failed = diagnostics.iter().any(|d| d.severity == Severity::Error);
-    if failed {
-        // What a task costs is of interest once it is one.
-        diagnostics.retain(|d| d.severity != Severity::Note);
-    }
-    let (rules, facts) = rules.filter(|_| !failed).unzip();
-    Compilation {
-        rules,
-        facts: facts.unwrap_or_default(),
-        diagnostics,
-        sources,
-    }
+    analyse(path, world).compile()
+}
+
+/// The primitive of a name, or the form of a statement that looks like a call of one:
+/// the `cube` of `space cube(1 m)`.
+pub fn callable(name: &str) -> Option<&'static Primitive> {
+    crate::primitives::find(name).or_else(|| types::forms::form(name))
 }

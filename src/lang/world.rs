@@ -47,3 +47,32 @@ impl World for Memory {
         }
     }
 }
+
+/// A path without `.` and without `..` behind a folder: two spellings of one file are
+/// then the same.
+pub fn normal(path: &str) -> String {
+    let mut parts: Vec<&str> = Vec::new();
+    for (k, part) in path.split('/').enumerate() {
+        match part {
+            "" if k > 0 => {}
+            "." => {}
+            ".." if parts.last().is_some_and(|p| !p.is_empty() && *p != "..") => drop(parts.pop()),
+            _ => parts.push(part),
+        }
+    }
+    parts.join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::normal;
+
+    #[test]
+    fn paths_are_compared_without_detours() {
+        assert_eq!(normal("a/./b/../c.vpl"), "a/c.vpl");
+        assert_eq!(normal("../../x.vpl"), "../../x.vpl");
+        assert_eq!(normal("a/../../x.vpl"), "../x.vpl");
+        assert_eq!(normal("/a//b/../x.vpl"), "/a/x.vpl");
+        assert_eq!(normal("/../x.vpl"), "/../x.vpl");
+    }
+}

@@ -29,5 +29,10 @@ pub fn name_of(colour: Colour) -> Option<&'static str> {
 
 /// All names.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    NAMED.iter().map(|(n, _)| *n)
+    all().map(|(n, _)| n)
+}
+
+/// All names with their colours.
+pub fn all() -> impl Iterator<Item = (&'static str, Colour)> {
+    NAMED.iter().map(|(n, rgb)| (*n, Colour(*rgb)))
 }

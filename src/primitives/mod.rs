@@ -25,7 +25,7 @@ pub use detectors::{Envelope, ImageKind, QR_SIZE_WITHIN, envelope, printed_edge}
 pub use extents::extremes;
 pub use faces::MOST_CORNERS;
 pub use predictors::{Strength, strength};
-pub use reference::reference;
+pub use reference::{reference, signature, written};
 pub use views::{MOST_VIEWS, poses};
 
 use crate::rules::{FeatureKind, Value};

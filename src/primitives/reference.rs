@@ -51,7 +51,7 @@ fn entry(page: &mut String, primitive: &Primitive) {
 }
 
 /// `size: length`, `share: share = 80 %`, `colour: colour?`.
-fn signature(parameter: &Parameter) -> String {
+pub fn signature(parameter: &Parameter) -> String {
     let (name, ty) = (parameter.name, written(parameter.ty));
     match parameter.default {
         Default::Required => format!("{name}: {ty}"),
@@ -60,7 +60,8 @@ fn signature(parameter: &Parameter) -> String {
     }
 }
 
-fn written(ty: Type) -> String {
+/// A type as parameter lists write it.
+pub fn written(ty: Type) -> String {
     match ty {
         Type::Choice(words) => words.join(" | "),
         Type::List(of) => format!("[{}]", written(*of)),

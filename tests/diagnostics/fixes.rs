@@ -75,6 +75,24 @@ fn every_fix_applied_alone_removes_its_diagnostic() {
     assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
 }
 
+/// Who is told another word can have it written.
+#[test]
+fn every_did_you_mean_comes_with_its_fix() {
+    for folder in WRONG {
+        let world = Folder(folder.into());
+        for name in programs(folder) {
+            for d in lang::compile(&name, &world).diagnostics {
+                let asked = d.help.as_ref().is_some_and(|help| help.starts_with("did you mean"));
+                assert!(
+                    !asked || !d.fixes.is_empty(),
+                    "{folder}/{name}: `{}` has no fix",
+                    d.message
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn repair_never_makes_more_errors_and_ends() {
     for folder in WRONG {
@@ -135,7 +153,7 @@ fn a_slip_made_twice_is_repaired_twice() {
 #[test]
 fn a_fix_that_adds_an_error_is_not_made() {
     let text = fs::read_to_string("tests/ui/E0403_views_in_the_space.vpl").unwrap();
-    let text = text.replace("400 mm", "1.5");
+    let text = text.replace("400 mm", "400");
     let before = lang::compile("m", &Memory::of("m", &text));
     assert!(!before.diagnostics[0].fixes.is_empty());
     let (after, codes) = repaired(&text);
@@ -146,7 +164,7 @@ fn a_fix_that_adds_an_error_is_not_made() {
 fn a_bad_fix_holds_up_no_good_one() {
     let text = fs::read_to_string("tests/ui/E0403_views_in_the_space.vpl").unwrap();
     let text = text
-        .replace("400 mm", "1.5")
+        .replace("400 mm", "400")
         .replace("goal confident", "goal: confident");
     let (after, codes) = repaired(&text);
     assert_eq!(after, text.replace("goal:", "goal"));

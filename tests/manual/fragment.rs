@@ -12,6 +12,8 @@ pub fn check(text: &str) -> Option<String> {
         statements_of_a_scene,
         items,
         alone,
+        after_the_tanks,
+        after_the_solids,
     ] {
         let program = frame(text);
         let compiled = lang::compile("main.vpl", &Memory::of("main.vpl", &program));
@@ -126,4 +128,12 @@ fn items(text: &str) -> String {
 
 fn alone(text: &str) -> String {
     format!("vpl 1\n{text}")
+}
+
+fn after_the_tanks(text: &str) -> String {
+    format!("{}\n{text}", include_str!("../../examples/tanks/tanks.vpl"))
+}
+
+fn after_the_solids(text: &str) -> String {
+    format!("{}\n{text}", include_str!("../../examples/solids/solids.vpl"))
 }

@@ -8,13 +8,21 @@ use serde_json::Value;
 
 use super::support::*;
 
+const PARCELS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/plan/parcels.vpl");
+const PRISMS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/plan/prisms.vpl");
+
 /// A run of a program of the examples in a folder of its own, where it is named
 /// without a path; logged to `run.jsonl`.
 fn ran(test: &str, program: &str, object: &str) -> PathBuf {
+    ran_to(0, test, program, &["--object", object])
+}
+
+/// As [`ran`], with options and the exit status that they lead to.
+fn ran_to(status: i32, test: &str, program: &str, options: &[&str]) -> PathBuf {
     let folder = folder(test);
     let name = Path::new(program).file_name().unwrap().to_str().unwrap();
     fs::copy(program, folder.join(name)).unwrap();
-    plan(&folder, &[name, "--object", object, "--log", "run.jsonl"]).expect(0, &[]);
+    plan(&folder, &[&[name, "--log", "run.jsonl"], options].concat()).expect(status, &[]);
     folder
 }
 
@@ -78,6 +86,36 @@ fn a_reconstruction_can_be_asked_about() {
     let said = plan(&folder, &["solids.vpl", "--log", "run.jsonl"]);
     said.expect(0, &["stop: no view can show more"]);
     assert!(said.out.contains("vpl why run.jsonl SUBJECT"), "{}", said.out);
+}
+
+/// Nothing left to see, and a library that does not fit: the last view says which.
+#[test]
+fn a_run_that_ends_without_its_goal_says_why() {
+    let bare = ran_to(3, "why_bare", PARCELS, &["--object", "bare"]);
+    let last = records(&bare.join("run.jsonl")).last().unwrap()["views"].to_string();
+    let answer = why(&bare, &["run.jsonl", "view", &last]).out;
+    for words in [
+        "the run stopped: no view can gain anything",
+        "✗ confident `",
+        "✓ nothing to gain",
+    ] {
+        assert!(answer.contains(words), "no `{words}` in {answer}");
+    }
+    let foreign = ran_to(3, "why_foreign", PRISMS, &["--task", "crate", "--object", "pyramid"]);
+    let last = records(&foreign.join("run.jsonl")).last().unwrap()["views"].to_string();
+    let answer = why(&foreign, &["run.jsonl", "view", &last]).out;
+    for words in [
+        "the run stopped: side contradicts the library",
+        "✓ contradiction `side`",
+        "were inspected and it was not found",
+    ] {
+        assert!(answer.contains(words), "no `{words}` in {answer}");
+    }
+    let answer = why(&foreign, &["run.jsonl", "prism"]).out;
+    assert!(
+        answer.contains("no class is left, for the library is contradicted"),
+        "{answer}"
+    );
 }
 
 /// With the overlap asked for, the table says which share each view has.

@@ -301,7 +301,7 @@ fn run(rules: &RuleSet, scene: &Simulator, method: &str, start: usize) -> (Vec<U
         let decision = session.next_view();
         decisions.push(decision.clone());
         match decision {
-            Decision::Next(next) => view = next.view,
+            Decision::Next(next) => view = next.chosen.view,
             Decision::End(end) => return (updates, decisions, end),
         }
     }
@@ -418,7 +418,9 @@ fn a_session_is_restored_by_replay_and_continues_as_a_clone() {
     };
     for other in [&mut copy, &mut replayed] {
         assert_eq!(other.next_view(), first.next_view());
-        let update = other.observe(next.view, &seen(&first, next.view)).unwrap();
+        let update = other
+            .observe(next.chosen.view, &seen(&first, next.chosen.view))
+            .unwrap();
         assert_eq!(update.n, 2);
     }
     assert_eq!(copy.next_view(), replayed.next_view());

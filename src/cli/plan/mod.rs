@@ -12,7 +12,7 @@ use clap::{Args, ValueEnum};
 use self::record::Recorder;
 use self::stage::Stage;
 use super::files::{Disk, human};
-use super::{Failure, Outcome, print, report};
+use super::{Failure, Outcome, more, print, report};
 use crate::lang::{self, Compilation, Diagnostic, render};
 use crate::plan::{self, ClosedLoop, Decision, Options, Part, PlanError, Session};
 use crate::rules::{RuleSet, Task};
@@ -105,6 +105,7 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
     outputs::check(options)?;
     let compiled = lang::compile(&options.file, &Disk).without_notes();
     report(&render(&compiled.diagnostics, &compiled.sources, human()))?;
+    report(&more([&compiled], human()))?;
     let Some(rules) = &compiled.rules else {
         return Ok(Outcome::WrongInput);
     };

@@ -100,6 +100,7 @@ codes! {
     E0601 "a result that cannot be written"
     E0602 "a run that cannot be resumed"
     E0603 "a run that cannot be made"
+    E0604 "a layout that would be another program"
     E0701 "a fact that does not hold"
     E0702 "evidence that contradicts itself"
     E0703 "an expectation that cannot be checked"

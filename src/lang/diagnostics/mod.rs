@@ -154,6 +154,13 @@ impl Diagnostic {
         self
     }
 
+    /// Did you mean: that the primary span should read otherwise.
+    pub fn meant(self, near: &str) -> Self {
+        let at = self.primary.span;
+        self.help(format!("did you mean `{near}`?"))
+            .fix(format!("write `{near}`"), at, near)
+    }
+
     /// The same about files whose first has another id ([`SourceMap::append`]).
     ///
     /// [`SourceMap::append`]: crate::lang::SourceMap::append

@@ -59,7 +59,7 @@ impl<'a> Log<'a> {
         };
         for (id, file) in sources.files() {
             let same = |known: &&SourceFile| known.display == file.display && known.is_shipped() == file.is_shipped();
-            let index = log.artifacts.iter().position(|known| same(&known));
+            let index = log.artifacts.iter().position(same);
             log.indices.insert(id, index.unwrap_or(log.artifacts.len()));
             if index.is_none() {
                 log.artifacts.push(file);

@@ -15,7 +15,7 @@ pub(super) enum Shape {
     /// `class box { bottom, side } prior 60 %`.
     Class,
     /// `object tk1 = tank() …`.
-    Definition,
+    Object,
     /// A row of a table of classes.
     Row,
     /// A word and its value: `detect qr("a")`, `limit 20 views`.
@@ -51,11 +51,9 @@ pub(super) fn shape(pieces: &[Piece], text: &str, block: &str) -> Option<(Shape,
                 .position(|p| matches!(p, Piece::Group(g) if is_braces(g)))?;
             Some((Shape::Class, [braces].into_iter().chain(position("prior")).collect()))
         }
+        "object" => Some((Shape::Object, vec![position("=")?])),
         _ if block.is_empty() || block == "library" || first == "for" => None,
-        _ => match position("=") {
-            Some(at) => Some((Shape::Definition, vec![at])),
-            None => (pieces.len() > 1).then(|| (Shape::Setting, vec![1])),
-        },
+        _ => (pieces.len() > 1).then(|| (Shape::Setting, vec![1])),
     }
 }
 
@@ -85,6 +83,8 @@ pub(super) fn align(lines: &mut [Line]) {
 /// Pads the lines of a run, column by column.
 fn pad(lines: &mut [Line], run: &[usize]) {
     let columns = run.iter().map(|at| lines[*at].stops.len()).max().unwrap_or(0);
+    // The cells of a table stand a little apart from the names of its rows.
+    let apart = usize::from(run.iter().any(|at| lines[*at].shape == Some(Shape::Row)));
     for column in 0..columns {
         let cells: Vec<(usize, usize)> = run
             .iter()
@@ -93,7 +93,7 @@ fn pad(lines: &mut [Line], run: &[usize]) {
             .collect();
         let widest = cells.iter().map(|(_, width)| *width).max().unwrap_or(0);
         for (at, width) in cells {
-            lines[at].pad(column, widest - width);
+            lines[at].pad(column, widest - width + apart);
         }
     }
 }

@@ -83,6 +83,20 @@ impl Group {
         self.kind != Kind::Index && !self.body.is_empty()
     }
 
+    /// The only thing in it, where that is a pair of brackets: to break one is to break
+    /// the other, on one line.
+    pub fn only(&self) -> Option<&Self> {
+        match self.body.as_slice() {
+            [Piece::Group(inner)] if self.form != Form::Expanded && inner.breaks() => Some(inner),
+            _ => None,
+        }
+    }
+
+    /// How many brackets open where it is broken.
+    pub fn depth(&self) -> usize {
+        1 + self.only().map_or(0, Self::depth)
+    }
+
     /// Whether a comma stands behind its last part when it is expanded.
     pub fn trailing_comma(&self) -> bool {
         match self.kind {

@@ -100,7 +100,7 @@ fn columns() {
 #[test]
 fn brackets() {
     insta::assert_snapshot!(laid_out(
-        "vpl 1\n\nlet joined = f(a,\n   b)\nlet kept = f(\na, b,\n\n\nc)\nlet long = f(first: [1 mm, 2 mm, 3 mm, 4 mm], second: g(1, 2, 3), third: 300 mm, fourth: 400 mm, fifth: 500 mm)\nlet hugging = f(a, b: [\n1,2\n])\nlet both = f([\n1], [\n2\n])\nlet sum = (1 mm +\n 2 mm)\nlet else_ = f(\n a\n else b\n // last\n)\nlet next =\n  f(1)\nlet chain = 1 mm +\n2 mm\n\nlibrary l {\n  class long_class { first_feature, second_feature, third_feature, fourth_feature, fifth_feature, sixth }\n  class broken {\n a\nb }\n  class mixed { a,\nb // b\n, c }\n}\ntask t {\n  thresholds { near: 10 mm, absent: 99 %, confidence: 99 % } ; limit 20 views\n  sensor_model {\n hit: 70 %; miss: 40 % }\n}\n"
+        "vpl 1\n\nlet joined = f(a,\n   b)\nlet kept = f(\na, b,\n\n\nc)\nlet long = f(first: [1 mm, 2 mm, 3 mm, 4 mm], second: g(1, 2, 3), third: 300 mm, fourth: 400 mm, fifth: 500 mm)\nlet hugging = f(a, b: [\n1,2\n])\nlet both = f([\n1], [\n2\n])\nlet sum = (1 mm +\n 2 mm)\nlet else_ = f(\n a\n else b\n // last\n)\nlet only = polygon([[100 mm, 100 mm, 100 mm], [-100 mm, 100 mm, 100 mm], [-100 mm, 100 mm, 400 mm]]) + f([1])\nlet next =\n  f(1)\nlet chain = 1 mm +\n2 mm\n\nlibrary l {\n  class long_class { first_feature, second_feature, third_feature, fourth_feature, fifth_feature, sixth }\n  class broken {\n a\nb }\n  class mixed { a,\nb // b\n, c }\n}\ntask t {\n  thresholds { near: 10 mm, absent: 99 %, confidence: 99 % } ; limit 20 views\n  sensor_model {\n hit: 70 %; miss: 40 % }\n}\n"
     ));
 }
 
@@ -139,6 +139,13 @@ fn what_the_parser_does_not_take_is_untouched() {
         assert_eq!(formatted.untouched.len(), 1);
         assert!(!formatted.refused);
     }
+}
+
+#[test]
+fn templates_and_facts() {
+    insta::assert_snapshot!(laid_out(
+        "vpl 1\nlibrary box( width:length,prefix : text=\"b\" ){\nuse  other( width:width/2 )\nuse plain\nfeature a:marker\n}\ntest   \"two . boxes\"{\nlibrary box\ngiven code[7]   detected,\ncode[4] absent\ngiven a=polygon([[1mm,2mm,3mm]])\nexpect   classes tk5,tk9\nexpect not confident\nexpect rule a,b->c predicts   4 // four\nexpect code[2] at [0 mm,0 mm,1m] facing -x within 5mm\nexpect class tk9 -50%\n}\n"
+    ));
 }
 
 /// A program with its spaces, line ends and comments changed.

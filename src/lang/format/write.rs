@@ -147,10 +147,10 @@ impl<'t> Writer<'t> {
             let start = column - space_at_start(&pieces[at..], column, base);
             let line = measure(&pieces[at..], start, tail, self.text);
             match (line.candidate, line.end) {
-                (Some(candidate), _) if line.width > WIDTH => {
+                (Some((candidate, depth)), _) if line.width > WIDTH => {
                     out[at + candidate] = true;
                     at += candidate + 1;
-                    column = base + 1;
+                    column = base + depth;
                 }
                 (_, Some((end, tail))) => {
                     if matches!(pieces[at + end], Piece::Break { .. }) {
@@ -167,13 +167,21 @@ impl<'t> Writer<'t> {
     /// Each part on a line of its own, or on the lines that the author chose.
     fn expanded(&mut self, group: &Group, base: usize) {
         self.push(group.open.text(self.text), group.space, base);
-        if group.kind == Kind::Block {
-            self.block(&group.body, Some(base));
-        } else {
-            self.items(group, base + 2);
+        match group.only() {
+            Some(inner) => self.expanded(inner, base),
+            None => {
+                self.parts(group, base);
+                self.fresh(base, false);
+            }
         }
-        self.fresh(base, false);
         self.push(group.close.text(self.text), false, base);
+    }
+
+    fn parts(&mut self, group: &Group, base: usize) {
+        match group.kind {
+            Kind::Block => self.block(&group.body, Some(base)),
+            _ => self.items(group, base + 2),
+        }
     }
 
     fn items(&mut self, group: &Group, indent: usize) {
@@ -378,8 +386,8 @@ fn space_at_start(pieces: &[Piece], column: usize, base: usize) -> usize {
 struct Measured {
     /// Its width, as far as it matters.
     width: usize,
-    /// The group to expand, should the line be too long.
-    candidate: Option<usize>,
+    /// The group to expand, should the line be too long, and how many brackets that are.
+    candidate: Option<(usize, usize)>,
     /// What ends the line, and the width of that on the next.
     end: Option<(usize, usize)>,
 }
@@ -405,9 +413,9 @@ fn measure(pieces: &[Piece], column: usize, tail: usize, text: &str) -> Measured
                 return out;
             }
             Piece::Group(group) => {
-                let opens = before + usize::from(group.space) < WIDTH;
+                let opens = before + usize::from(group.space) + group.depth() <= WIDTH;
                 if group.breaks() && group.width > widest && (opens || out.candidate.is_none()) {
-                    (out.candidate, widest) = (Some(at), group.width);
+                    (out.candidate, widest) = (Some((at, group.depth())), group.width);
                 }
                 if group.form == Form::Hugging {
                     out.end = Some((at, group.tail));

@@ -30,7 +30,9 @@ pub(super) fn resolve(loaded: Vec<Loaded>, sources: &SourceMap) -> (Program, Vec
         .into_iter()
         .zip(loaded)
         .map(|(((scope, libraries), lost), module)| Module {
+            file: module.file,
             tree: module.tree,
+            imports: module.imports,
             scope,
             libraries,
             lost,
@@ -196,9 +198,7 @@ fn not_there(name: &tree::Name, title: &str, own: &Own) -> Diagnostic {
         ));
     }
     match closest(text, own.keys().map(String::as_str)) {
-        Some(near) => out
-            .help(format!("did you mean `{near}`?"))
-            .fix(format!("write `{near}`"), name.span, near),
+        Some(near) => out.meant(near),
         None => out.help(format!("it defines {}", one_of(own.keys().map(String::as_str)))),
     }
 }

@@ -12,7 +12,7 @@ pub(super) mod suggest;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::diagnostics::Diagnostic;
-use super::source::{SourceMap, Span};
+use super::source::{FileId, SourceMap, Span};
 use super::syntax::tree;
 use super::world::World;
 
@@ -30,7 +30,10 @@ pub(super) struct Program {
 /// A file with what it can see.
 #[derive(Debug)]
 pub(super) struct Module {
+    pub file: FileId,
     pub tree: tree::File,
+    /// The module behind each `use` in order; `None` where it failed.
+    pub imports: Vec<Option<usize>>,
     /// Definitions in scope by name: its own and imported ones. `None` stands for
     /// a name whose import failed, which was reported.
     pub scope: BTreeMap<String, Option<DefinitionId>>,

@@ -2,18 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use super::suggest::{did_you_mean, one_of};
+use super::suggest::{closest, one_of};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::{FileId, SourceFile, SourceMap, Span};
 use crate::lang::syntax::{self, tree};
-use crate::lang::world::{MOST_BYTES, ReadFailure, World};
-use crate::lang::{EDITION, stdlib};
+use crate::lang::world::{World, normal};
+use crate::lang::{EDITION, reading, stdlib};
 
 /// Most modules of a program; imports nest no deeper.
 const MOST_MODULES: usize = 256;
 
 /// A file that was read, and what its imports point to.
 pub(super) struct Loaded {
+    pub file: FileId,
     pub tree: tree::File,
     /// The module behind each import in order; `None` where it failed.
     pub imports: Vec<Option<usize>>,
@@ -77,6 +78,7 @@ impl Loader<'_> {
         let imports = imports.map(|import| self.import(&key, import)).collect();
         self.reading.pop();
         self.modules[index] = Some(Loaded {
+            file,
             tree,
             imports,
             title: title(&key),
@@ -110,18 +112,24 @@ impl Loader<'_> {
 
     fn standard(&mut self, words: &[tree::Name], span: Span) -> Option<Key> {
         let texts: Vec<&str> = words.iter().map(|w| w.text.as_str()).collect();
-        let help = match texts.as_slice() {
-            ["std", name] if stdlib::module(name).is_some() => return Some(Key::Standard((*name).to_owned())),
-            ["std", name, ..] => did_you_mean(name, stdlib::names())
-                .unwrap_or_else(|| format!("the standard library has {}", one_of(stdlib::names()))),
-            ["std"] => format!("name a module: {}", one_of(stdlib::names())),
-            _ => {
-                "the standard library is `std`; a file of yours is imported by its path: `use \"file.vpl\".name`".into()
-            }
-        };
+        if let ["std", name] = texts.as_slice()
+            && stdlib::module(name).is_some()
+        {
+            return Some(Key::Standard((*name).to_owned()));
+        }
         let at = words.get(1).or(words.first()).map_or(span, |w| w.span);
         let message = format!("there is no module `{}`", texts.join("."));
-        self.found.push(Diagnostic::new(Code::E0204, at, message).help(help));
+        let out = Diagnostic::new(Code::E0204, at, message);
+        self.found.push(match texts.as_slice() {
+            ["std", name, ..] => match closest(name, stdlib::names()) {
+                Some(near) => out.meant(near),
+                None => out.help(format!("the standard library has {}", one_of(stdlib::names()))),
+            },
+            ["std"] => out.help(format!("name a module: {}", one_of(stdlib::names()))),
+            _ => out.help(
+                "the standard library is `std`; a file of yours is imported by its path: `use \"file.vpl\".name`",
+            ),
+        });
         None
     }
 
@@ -147,61 +155,19 @@ impl Loader<'_> {
     }
 
     fn source(&mut self, key: &Key, import: Option<Span>) -> Option<FileId> {
-        let (display, path) = match key {
-            Key::Standard(name) => (format!("std/{name}.vpl"), format!("std/{name}.vpl")),
-            Key::User(path) => (format!("{}{path}", self.folder), path.clone()),
-        };
-        let bytes = match key {
-            Key::Standard(name) => Ok(stdlib::module(name).unwrap_or_default().as_bytes().to_vec()),
-            Key::User(_) => self.world.read(&display),
-        };
-        let bytes = match bytes {
-            Ok(bytes) => bytes,
-            Err(failure) => {
-                self.unreadable(display, path, &failure, import);
-                return None;
+        match key {
+            Key::Standard(name) => {
+                let path = format!("std/{name}.vpl");
+                let text = stdlib::module(name).unwrap_or_default().to_owned();
+                Some(self.sources.add(SourceFile::new(path.clone(), path, text).shipped()))
             }
-        };
-        let (text, invalid) = match String::from_utf8(bytes) {
-            Ok(text) => (text, None),
-            Err(error) => {
-                let at = error.utf8_error().valid_up_to();
-                let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
-                (valid, Some(at))
+            Key::User(path) => {
+                let display = format!("{}{path}", self.folder);
+                let bytes = self.world.read(&display);
+                let read = reading::source(&display, path, bytes, self.sources, import);
+                read.map_err(|found| self.found.push(*found)).ok()
             }
-        };
-        let file = SourceFile::new(display, path, text);
-        let id = self.sources.add(match key {
-            Key::Standard(_) => file.shipped(),
-            Key::User(_) => file,
-        });
-        let Some(at) = invalid else {
-            return Some(id);
-        };
-        let message = format!("the byte at offset {at} is no UTF-8 text");
-        self.found
-            .push(Diagnostic::new(Code::E0107, Span::new(id, at, at), message).help("save the program as UTF-8 text"));
-        None
-    }
-
-    fn unreadable(&mut self, display: String, path: String, failure: &ReadFailure, import: Option<Span>) {
-        let (code, message) = match failure {
-            ReadFailure::Missing => (Code::E0105, format!("there is no file `{display}`")),
-            ReadFailure::TooLarge => (
-                Code::E0106,
-                format!("`{display}` is larger than {} MB", MOST_BYTES >> 20),
-            ),
-            ReadFailure::Failed(why) => (Code::E0105, format!("`{display}` cannot be read: {why}")),
-        };
-        let at = import.unwrap_or_else(|| {
-            let id = self.sources.add(SourceFile::new(display, path, String::new()));
-            Span::new(id, 0, 0)
-        });
-        let help = match failure {
-            ReadFailure::TooLarge => Some("split it into modules and import them with `use`".to_owned()),
-            _ => import.map(|_| "a path is relative to the file that imports it".to_owned()),
-        };
-        self.found.push(Diagnostic::new(code, at, message).maybe_help(help));
+        }
     }
 
     /// The tree of a file of this edition.
@@ -225,8 +191,10 @@ impl Loader<'_> {
             self.found.push(newer.clone());
             return None;
         }
+        // What is no program at all has one thing to be said about it.
+        let is_a_program = edition.is_none() || !tree.items.is_empty();
         self.found.extend(edition);
-        self.found.extend(found);
+        self.found.extend(found.into_iter().filter(|_| is_a_program));
         Some(tree)
     }
 }
@@ -264,30 +232,5 @@ fn title(key: &Key) -> String {
     match key {
         Key::Standard(name) => format!("std.{name}"),
         Key::User(path) => path.clone(),
-    }
-}
-
-/// A path without `.` and without `..` behind a folder.
-fn normal(path: &str) -> String {
-    let mut parts: Vec<&str> = Vec::new();
-    for part in path.split('/') {
-        match part {
-            "" | "." => {}
-            ".." if parts.last().is_some_and(|p| *p != "..") => drop(parts.pop()),
-            _ => parts.push(part),
-        }
-    }
-    parts.join("/")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::normal;
-
-    #[test]
-    fn paths_are_compared_without_detours() {
-        assert_eq!(normal("a/./b/../c.vpl"), "a/c.vpl");
-        assert_eq!(normal("../../x.vpl"), "../../x.vpl");
-        assert_eq!(normal("a/../../x.vpl"), "../x.vpl");
     }
 }

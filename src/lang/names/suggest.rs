@@ -61,6 +61,7 @@ const FOREIGN: &[(&str, &str)] = &[
     ("rotated", "turned"),
     ("background", "backdrop"),
     ("or", "else"),
+    ("elif", "else"),
     ("plane", "polygon"),
     ("face", "polygon"),
     ("distance", "length"),
@@ -96,11 +97,6 @@ pub(crate) fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a s
         .filter(|(d, c)| *d <= most && *d < c.chars().count())
         .min()
         .map(|(_, c)| c)
-}
-
-/// Did you mean, as advice.
-pub(in crate::lang) fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    closest(word, candidates).map(|c| format!("did you mean `{c}`?"))
 }
 
 /// `a, b or c` in backticks, cut short where it is long.

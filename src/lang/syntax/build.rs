@@ -4,13 +4,25 @@
 use pest::iterators::{Pair, Pairs};
 
 use super::expressions::{expr, name, quoted};
+use super::habits::{Habit, Habits};
 use super::tree::{File, Item, Let, Module, Name, Parameter, Statement, TypeName, Use};
 use super::{Rule, recover, span};
-use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::diagnostics::{Code, Diagnostic, Edit};
 use crate::lang::source::{FileId, Span};
 
 /// Bad regions that are explained; a binary file has thousands.
 const MOST_EXPLAINED: usize = 200;
+/// The fields of `thresholds` and `sensor_model`.
+const FIELDS: [&str; 8] = [
+    "near",
+    "absent",
+    "confidence",
+    "hit",
+    "miss",
+    "clamp_min",
+    "clamp_max",
+    "occupied",
+];
 
 /// Reads pairs into a tree; what is wrong collects in `found`.
 pub(super) struct Builder<'a> {
@@ -21,6 +33,9 @@ pub(super) struct Builder<'a> {
     comments: Vec<Span>,
     /// Imports that stand inside a library.
     pub(super) misplaced: Vec<Item>,
+    pub(super) habits: Habits,
+    /// Whether the last bad region is a statement without the braces of its fields.
+    in_fields: bool,
 }
 
 pub(super) fn file(id: FileId, text: &str, pairs: Pairs<'_, Rule>) -> (File, Vec<Diagnostic>) {
@@ -37,7 +52,10 @@ pub(super) fn file(id: FileId, text: &str, pairs: Pairs<'_, Rule>) -> (File, Vec
         bad: Vec::new(),
         comments,
         misplaced: Vec::new(),
+        habits: Habits::default(),
+        in_fields: false,
     };
+    b.comments_of_others();
     let mut edition = None;
     let mut items = Vec::new();
     for pair in pairs.flat_map(children) {
@@ -48,6 +66,7 @@ pub(super) fn file(id: FileId, text: &str, pairs: Pairs<'_, Rule>) -> (File, Vec
         }
     }
     items.append(&mut b.misplaced);
+    b.found.extend(std::mem::take(&mut b.habits).answers());
     let tree = File {
         edition,
         items,
@@ -82,22 +101,76 @@ impl Builder<'_> {
 
     fn header(&mut self, pair: Pair<'_, Rule>) -> Name {
         let whole = self.span(&pair);
-        parts(pair).next().map_or(
+        let edition = parts(pair).next().map_or(
             Name {
                 text: String::new(),
                 span: whole,
             },
             |p| name(self.file, &p),
-        )
+        );
+        let written = &self.text[whole.start..whole.end];
+        let usual = written.starts_with("vpl") && !written.contains(':') && whole.start + 3 < edition.span.start;
+        if !usual && !edition.text.is_empty() {
+            let line = format!("vpl {}", edition.text);
+            self.found.push(
+                Diagnostic::new(
+                    Code::E0102,
+                    whole,
+                    "the edition line is a small `vpl`, a space and the edition",
+                )
+                .help(format!("write `{line}`"))
+                .fix(format!("write `{line}`"), whole, line),
+            );
+        }
+        edition
+    }
+
+    /// The name of a declaration; a hyphen in it is reported.
+    pub(super) fn title(&mut self, pair: &Pair<'_, Rule>) -> Name {
+        let mut title = name(self.file, pair);
+        if pair.as_rule() == Rule::wrong_name {
+            title.text = title.text.replace('-', "_");
+            self.habits
+                .met(Habit::Hyphen, title.span, vec![replace(title.span, &title.text)]);
+        }
+        title
+    }
+
+    fn comments_of_others(&mut self) {
+        for at in &self.comments {
+            let written = &self.text[at.start..at.end];
+            let begin = |n: usize| replace(Span::new(at.file, at.start, at.start + n), "//");
+            if written.starts_with('#') {
+                self.habits.met(Habit::Hash, *at, vec![begin(1)]);
+            } else if written.starts_with("/*") {
+                let rest = self.text[at.end..].split('\n').next().unwrap_or("");
+                let edits = match rest.trim().is_empty() {
+                    true => vec![begin(2), replace(Span::new(at.file, at.end - 2, at.end), "")],
+                    false => Vec::new(),
+                };
+                self.habits.met(Habit::Block, *at, edits);
+            }
+        }
     }
 
     /// Remembers a region that could not be read, and says why.
     pub(super) fn bad(&mut self, pair: &Pair<'_, Rule>) {
         let region = self.span(pair);
         self.bad.push(region);
-        if self.bad.len() <= MOST_EXPLAINED {
+        if self.bad.len() <= MOST_EXPLAINED && !self.is_a_lost_field(region) {
             self.found.push(recover::explain(region, pair.as_rule(), self.text));
         }
+    }
+
+    /// Whether a region is a field of a statement without braces, as in YAML: one
+    /// report for the statement is enough.
+    fn is_a_lost_field(&mut self, region: Span) -> bool {
+        let text = &self.text[region.start..region.end];
+        let first = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').next();
+        let first = first.unwrap_or("");
+        let lost = self.in_fields && FIELDS.contains(&first);
+        self.in_fields = lost || (matches!(first, "thresholds" | "sensor_model") && !text.contains('{'));
+        lost
     }
 
     /// Answers slips that the grammar reads on purpose.
@@ -105,20 +178,14 @@ impl Builder<'_> {
         for slip in pair.clone().into_inner() {
             let (wrong, right) = match slip.as_rule() {
                 Rule::wrong_equals => ("=", ":"),
-                Rule::wrong_colon => (":", ""),
+                Rule::wrong_is => (":", "="),
+                Rule::wrong_colon => (slip.as_str(), ""),
                 Rule::wrong_arrow => (slip.as_str(), "->"),
                 _ => continue,
             };
-            let help = match right {
-                "" => "leave the `:` out: a word and its value stand side by side".to_owned(),
-                _ => format!("write `{right}`"),
-            };
             let at = self.span(&slip);
-            self.found.push(
-                Diagnostic::new(Code::E0109, at, format!("`{wrong}` has no place here"))
-                    .help(help.clone())
-                    .fix(help, at, right),
-            );
+            self.habits
+                .met(Habit::Mark(wrong.to_owned(), right), at, vec![replace(at, right)]);
         }
     }
 
@@ -177,8 +244,9 @@ impl Builder<'_> {
 
     fn let_item(&mut self, pair: Pair<'_, Rule>) -> Option<Let> {
         let doc = self.doc(&pair);
+        self.slips(&pair);
         let mut parts = parts(pair).peekable();
-        let title = name(self.file, &parts.next()?);
+        let title = self.title(&parts.next()?);
         let parameters = match parts.next_if(|p| p.as_rule() == Rule::parameters) {
             Some(list) => self.parameters(list),
             None => Vec::new(),
@@ -250,6 +318,14 @@ impl Builder<'_> {
         }
         lines.reverse();
         lines.join("\n")
+    }
+}
+
+/// A change of some bytes.
+pub(super) fn replace(span: Span, text: &str) -> Edit {
+    Edit {
+        span,
+        text: text.to_owned(),
     }
 }
 

@@ -13,6 +13,16 @@ pub(super) fn names(rules: &[Rule]) -> Vec<String> {
     found.into_iter().map(|(_, text)| text).collect()
 }
 
+/// Without what may always follow and is never needed: operators, `else`, an index.
+pub(super) fn essential(names: &[String]) -> Vec<String> {
+    const CONTINUE: [&str; 6] = ["an operator", "`else`", "a unit", "`.`", "`[`", "`(`"];
+    let needed: Vec<String> = (names.iter())
+        .filter(|name| !CONTINUE.contains(&name.as_str()))
+        .cloned()
+        .collect();
+    if needed.is_empty() { names.to_vec() } else { needed }
+}
+
 /// `a, b or c`, cut short where it is long.
 pub(super) fn list(names: &[String]) -> String {
     const MOST: usize = 14;

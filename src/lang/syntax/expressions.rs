@@ -2,11 +2,12 @@
 
 use pest::iterators::Pair;
 
-use super::build::{Builder, children, parts};
+use super::build::{Builder, children, parts, replace};
+use super::habits::Habit;
 use super::tree::{Argument, Call, Expr, ExprKind, Name, Operator, Quantity, Reference, TextPart};
 use super::{Rule, span};
-use crate::lang::diagnostics::{Code, Diagnostic};
-use crate::lang::source::FileId;
+use crate::lang::diagnostics::{Code, Diagnostic, Edit};
+use crate::lang::source::{FileId, Span};
 
 pub(super) fn name(file: FileId, pair: &Pair<'_, Rule>) -> Name {
     Name {
@@ -60,6 +61,8 @@ pub(super) fn expr(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> Expr {
         Rule::quantity => ExprKind::Quantity(quantity(b, pair)),
         Rule::text => ExprKind::Text(text_parts(b, pair)),
         Rule::colour => ExprKind::Colour(pair.as_str()[1..].to_owned()),
+        Rule::tuple => tuple(b, pair, at),
+        Rule::common_unit => common_unit(b, pair),
         Rule::list => ExprKind::List(parts(pair).map(|p| expr(b, p)).collect()),
         Rule::call => ExprKind::Call(call(b, pair)),
         _ => match reference(b, pair) {
@@ -68,6 +71,58 @@ pub(super) fn expr(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> Expr {
         },
     };
     Expr { kind, span: at }
+}
+
+/// `(107 mm, 0 mm, 0 mm)`: a list in the wrong brackets.
+fn tuple(b: &mut Builder<'_>, pair: Pair<'_, Rule>, at: Span) -> ExprKind {
+    let open = replace(
+        Span {
+            end: at.start + 1,
+            ..at
+        },
+        "[",
+    );
+    let close = replace(
+        Span {
+            start: at.end - 1,
+            ..at
+        },
+        "]",
+    );
+    b.habits.met(Habit::Tuple, at, vec![open, close]);
+    ExprKind::List(parts(pair).map(|p| expr(b, p)).collect())
+}
+
+/// `[107, 0, 0] mm`: one unit for all numbers of a list.
+fn common_unit(b: &mut Builder<'_>, pair: Pair<'_, Rule>) -> ExprKind {
+    let mut parts = parts(pair);
+    let (list, unit) = (parts.next().map(|p| expr(b, p)), parts.next().map(|p| name(b.file, &p)));
+    let (Some(mut list), Some(unit)) = (list, unit) else {
+        return ExprKind::List(Vec::new());
+    };
+    let between = Span {
+        start: list.span.end,
+        ..unit.span
+    };
+    let mut edits = vec![replace(between, "")];
+    if let ExprKind::List(items) = &mut list.kind {
+        items.iter_mut().for_each(|item| add_unit(item, &unit, &mut edits));
+    }
+    edits.sort_by_key(|e| e.span);
+    b.habits.met(Habit::CommonUnit, unit.span, edits);
+    list.kind
+}
+
+/// Gives a bare number, negated or not, a unit.
+fn add_unit(item: &mut Expr, unit: &Name, edits: &mut Vec<Edit>) {
+    match &mut item.kind {
+        ExprKind::Negate(inner) | ExprKind::Group(inner) => add_unit(inner, unit, edits),
+        ExprKind::Quantity(quantity) if quantity.unit.is_none() => {
+            edits.push(replace(quantity.number.after(), &format!(" {}", unit.text)));
+            quantity.unit = Some(unit.clone());
+        }
+        _ => {}
+    }
 }
 
 /// Most operators in a row: the tree of a chain is as deep as the chain is long.

@@ -26,7 +26,7 @@ impl Builder<'_> {
         for part in parts_of {
             self.slips(&part);
             match part.as_rule() {
-                Rule::library_of => test.libraries.extend(parts(part).next().map(|p| name(self.file, &p))),
+                Rule::library_of => test.libraries.extend(parts(part).next().map(|p| self.title(&p))),
                 Rule::given => test.given.extend(parts(part).filter_map(|p| self.supposed(p))),
                 Rule::expect => test.expected.extend(self.expectation(part)),
                 _ => self.bad(&part),

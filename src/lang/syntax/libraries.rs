@@ -2,20 +2,24 @@
 
 use pest::iterators::Pair;
 
-use super::build::{Builder, children, parts, start_to};
+use super::build::{Builder, children, parts, replace, start_to};
 use super::expressions::{call, expr, integer, name, reference};
+use super::habits::Habit;
 use super::tree::{
     Call, Class, ClassTable, Feature, FeatureRef, ForEach, Inclusion, Index, Item, Layout, LayoutPlace, Library, Row,
     Rule as RuleItem,
 };
 use super::{Rule, syntax_error};
+use crate::lang::source::Span;
+
 impl Builder<'_> {
     pub(super) fn library(&mut self, pair: Pair<'_, Rule>) -> Option<Library> {
         let doc = self.doc(&pair);
         let start = self.span(&pair);
         let known = self.bad.len();
+        self.slips(&pair);
         let mut parts = parts(pair).peekable();
-        let title = name(self.file, &parts.next()?);
+        let title = self.title(&parts.next()?);
         let parameters = parts.next_if(|p| p.as_rule() == Rule::parameters);
         let mut library = Library {
             head: start_to(start, title.span),
@@ -74,6 +78,7 @@ impl Builder<'_> {
     fn feature(&mut self, pair: Pair<'_, Rule>) -> Option<Feature> {
         let whole = self.span(&pair);
         let many = children(pair.clone()).any(|p| p.as_rule() == Rule::kw_many);
+        self.slips(&pair);
         let mut parts = parts(pair);
         Some(Feature {
             name: self.feature_ref(parts.next()?)?,
@@ -86,7 +91,7 @@ impl Builder<'_> {
     pub(super) fn feature_ref(&mut self, pair: Pair<'_, Rule>) -> Option<FeatureRef> {
         let whole = self.span(&pair);
         let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
+        let title = self.title(&parts.next()?);
         let index = parts.next().and_then(|p| self.index(p));
         Some(FeatureRef {
             name: title,
@@ -110,8 +115,9 @@ impl Builder<'_> {
 
     fn class(&mut self, pair: Pair<'_, Rule>) -> Option<Class> {
         let whole = self.span(&pair);
+        self.slips(&pair);
         let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
+        let title = self.title(&parts.next()?);
         let (mut features, mut prior) = (Vec::new(), None);
         for part in parts {
             match part.as_rule() {
@@ -143,13 +149,14 @@ impl Builder<'_> {
 
     fn row(&mut self, pair: Pair<'_, Rule>) -> Option<Row> {
         let whole = self.span(&pair);
+        self.cells(&pair, whole);
         let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
+        let title = self.title(&parts.next()?);
         let (mut cells, mut prior) = (Vec::new(), None);
         for part in parts {
             match part.as_rule() {
                 Rule::prior => prior = self.value(part),
-                _ => cells.push(part.as_str() == "1"),
+                _ => cells.push(matches!(part.as_str(), "1" | "true" | "yes")),
             }
         }
         Some(Row {
@@ -158,6 +165,24 @@ impl Builder<'_> {
             prior,
             span: whole,
         })
+    }
+
+    /// Answers cells in the manner of other languages.
+    fn cells(&mut self, pair: &Pair<'_, Rule>, row: Span) {
+        let mut edits = Vec::new();
+        for part in pair.clone().into_inner() {
+            let right = match (part.as_rule(), part.as_str()) {
+                (Rule::wrong_colon, _) => "",
+                (Rule::wrong_comma, _) => " ",
+                (Rule::wrong_cell, "true" | "yes") => "1",
+                (Rule::wrong_cell, _) => "0",
+                _ => continue,
+            };
+            edits.push(replace(self.span(&part), right));
+        }
+        if !edits.is_empty() {
+            self.habits.met(Habit::Cells, row, edits);
+        }
     }
 
     fn rule(&mut self, pair: Pair<'_, Rule>) -> Option<RuleItem> {
@@ -206,7 +231,8 @@ impl Builder<'_> {
         let mut parts_of = parts(pair);
         let head = parts_of.next()?;
         let head_span = self.span(&head);
-        let title = name(self.file, &parts(head).next()?);
+        self.slips(&head);
+        let title = self.title(&parts(head).next()?);
         let mut places = Vec::new();
         for part in parts_of {
             match part.as_rule() {

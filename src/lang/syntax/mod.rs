@@ -12,12 +12,15 @@ mod expected;
 mod expressions;
 mod facts;
 mod guard;
+mod habits;
 mod libraries;
 mod recover;
 mod same;
+mod slips;
 mod tasks;
 mod tokens;
 pub mod tree;
+mod usage;
 
 use std::num::NonZeroUsize;
 use std::sync::Once;
@@ -60,15 +63,15 @@ fn limit_calls() {
 }
 
 /// Whether the strict entry accepts a text.
-#[cfg(test)]
-pub(super) fn strictly_accepts(text: &str) -> bool {
+#[cfg(any(test, fuzzing))]
+pub fn strictly_accepts(text: &str) -> bool {
     limit_calls();
     guard::refuse(FileId(0), text).is_none() && Grammar::parse(Rule::file, text).is_ok()
 }
 
 /// Whether the tolerant entry finds nothing bad in a text.
-#[cfg(test)]
-pub(super) fn tolerantly_accepts(text: &str) -> bool {
+#[cfg(any(test, fuzzing))]
+pub fn tolerantly_accepts(text: &str) -> bool {
     limit_calls();
     let pairs = Grammar::parse(Rule::tolerant_file, text);
     guard::refuse(FileId(0), text).is_none()

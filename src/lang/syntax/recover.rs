@@ -6,7 +6,7 @@
 use pest::Parser as _;
 use pest::error::{Error, ErrorVariant, InputLocation};
 
-use super::{Grammar, Rule, expected, syntax_error};
+use super::{Grammar, Rule, expected, slips, syntax_error, usage};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::names::suggest::{self, closest};
 use crate::lang::source::{FileId, Span};
@@ -37,15 +37,63 @@ pub(super) fn explain(region: Span, kind: Rule, text: &str) -> Diagnostic {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
     };
     let expected = match error.variant {
-        ErrorVariant::ParsingError { positives, .. } => expected::names(&positives),
+        ErrorVariant::ParsingError { positives, .. } => expected::essential(&expected::names(&positives)),
         ErrorVariant::CustomError { .. } => return too_complex(region.file, &error),
     };
     let found = word_at(part, at);
     let place = Span::new(region.file, region.start + at, region.start + at + found.len());
-    if found.is_empty() || found == "\n" {
-        return unfinished(region, at, &expected, part);
+    if found.is_empty() {
+        return unfinished(region, at, &expected, part, strict);
     }
-    unexpected(place, found, &expected)
+    let failure = Failure {
+        part,
+        at,
+        found,
+        place,
+        expected: &expected,
+        strict,
+    };
+    slips::answer(&failure).unwrap_or_else(|| unexpected(&failure))
+}
+
+/// Where the strict entry gave up.
+pub(super) struct Failure<'a> {
+    /// The bad region.
+    pub part: &'a str,
+    /// Up to where it was read.
+    pub at: usize,
+    /// What stands there.
+    pub found: &'a str,
+    pub place: Span,
+    pub expected: &'a [String],
+    strict: Rule,
+}
+
+impl Failure<'_> {
+    /// Whether another text in place of the region can be read, or further than it.
+    pub fn is_mended_by(&self, text: &str) -> bool {
+        match Grammar::parse(self.strict, text) {
+            Ok(_) => true,
+            Err(error) => match error.location {
+                InputLocation::Pos(end) | InputLocation::Span((end, _)) => end > self.at + 1,
+            },
+        }
+    }
+
+    /// The line that was not read to its end.
+    pub fn line(&self) -> &str {
+        line_at(self.part, self.at)
+    }
+
+    /// Whether one of some items or entries is due.
+    pub fn begins_something(&self) -> bool {
+        self.at == 0 && matches!(self.strict, Rule::item_only | Rule::entry_only)
+    }
+}
+
+fn line_at(part: &str, at: usize) -> &str {
+    let start = part[..at].rfind('\n').map_or(0, |end| end + 1);
+    part[start..].lines().next().unwrap_or("").trim_start()
 }
 
 /// The parser gave up before an answer.
@@ -57,7 +105,15 @@ pub(super) fn too_complex(file: FileId, error: &Error<Rule>) -> Diagnostic {
         .help("split it into modules")
 }
 
-fn unexpected(place: Span, found: &str, expected: &[String]) -> Diagnostic {
+fn unexpected(failure: &Failure<'_>) -> Diagnostic {
+    let Failure {
+        part,
+        at,
+        found,
+        place,
+        expected,
+        ..
+    } = *failure;
     let words: Vec<&str> = expected
         .iter()
         .filter_map(|e| e.strip_prefix('`')?.strip_suffix('`'))
@@ -68,15 +124,20 @@ fn unexpected(place: Span, found: &str, expected: &[String]) -> Diagnostic {
         .or_else(|| is_word.then(|| closest(found, words.iter().copied())).flatten());
     let out = syntax_error(place, message(expected, &format!("found `{found}`"))).label("not expected here");
     match similar {
-        Some(word) => out
-            .help(format!("did you mean `{word}`?"))
-            .fix(format!("write `{word}`"), place, word),
-        None => out.maybe_help(advice(found, expected)),
+        Some(word) => {
+            let out = out.help(format!("did you mean `{word}`?"));
+            let mended = format!("{}{word}{}", &part[..at], &part[at + found.len()..]);
+            match failure.is_mended_by(&mended) {
+                true => out.fix(format!("write `{word}`"), place, word),
+                false => out,
+            }
+        }
+        None => out.maybe_help(advice(found, expected).or_else(|| usage_help(part, at, failure.strict))),
     }
 }
 
 /// The region ended too early: the place is where its text ends.
-fn unfinished(region: Span, at: usize, expected: &[String], part: &str) -> Diagnostic {
+fn unfinished(region: Span, at: usize, expected: &[String], part: &str, strict: Rule) -> Diagnostic {
     let end = region.start + part[..at].trim_end().len();
     let last = Span::new(region.file, end, end);
     let unclosed = expected.iter().any(|e| e == "`}`") && at >= part.trim_end().len();
@@ -87,7 +148,20 @@ fn unfinished(region: Span, at: usize, expected: &[String], part: &str) -> Diagn
             .related(Span::new(region.file, open, open + 1), "this `{` is not closed")
             .help("add the missing `}`");
     }
-    syntax_error(last, message(expected, "found the end of the line")).label("here")
+    let out = syntax_error(last, message(expected, "found the end of the line")).label("here");
+    if expected.iter().any(|e| e.starts_with("the end of the text")) {
+        return out.help("close the text with `\"` on its line");
+    }
+    out.maybe_help(usage_help(part, at, strict))
+}
+
+/// How the statement on the line that was not read is written, or the whole region.
+fn usage_help(part: &str, at: usize, strict: Rule) -> Option<String> {
+    let usage = match strict {
+        Rule::place_only => Some("code[1] at [450 mm, 0 mm, 250 mm] facing +x"),
+        _ => usage::of(line_at(part, at)).or_else(|| usage::of(part)),
+    };
+    usage.map(|usage| format!("write `{usage}`"))
 }
 
 fn message(expected: &[String], found: &str) -> String {
@@ -101,10 +175,11 @@ fn message(expected: &[String], found: &str) -> String {
 fn advice(found: &str, expected: &[String]) -> Option<String> {
     let has = |token: &str| expected.iter().any(|e| e == token);
     match found {
-        "\"" => Some("a text ends on its line with `\"`; write `\\{` for a brace in it".into()),
-        "'" => Some("a text stands in double quotes".into()),
+        "\"" if has("the end of the text (`\"`)") => {
+            Some("a text ends on its line with `\"`; write `\\{` for a brace in it".into())
+        }
         "#" => Some("a comment begins with `//`".into()),
-        "/*" => Some("a comment begins with `//` and ends with its line".into()),
+        "/*" | "*" => Some("a comment begins with `//` and ends with its line".into()),
         "feature" | "class" | "classes" | "rule" | "layout" if has("`library`") => {
             Some(format!("`{found}` belongs inside the braces of a `library`"))
         }
@@ -112,13 +187,13 @@ fn advice(found: &str, expected: &[String]) -> Option<String> {
         _ if suggest::RESERVED.contains(&found) => Some(format!(
             "`{found}` begins a declaration: it is reserved, and stands neither here nor as a name"
         )),
-        _ if has("the end of the line") => Some("a statement ends with its line, or with `;`".into()),
+        _ if expected == ["the end of the line"] => Some("a statement ends with its line, or with `;`".into()),
         _ => None,
     }
 }
 
 /// The word or mark at an offset.
-fn word_at(text: &str, at: usize) -> &str {
+pub(super) fn word_at(text: &str, at: usize) -> &str {
     let rest = text.get(at..).unwrap_or("");
     let Some(first) = rest.chars().next() else {
         return "";

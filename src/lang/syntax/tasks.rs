@@ -5,15 +5,17 @@ use pest::iterators::Pair;
 use super::Rule;
 use super::build::{Builder, parts, start_to};
 use super::expressions::{expr, name};
-use super::tree::{Field, Marked, Object, Scene, SpaceStatement, Task, TaskStatement, TaskStatementKind};
+use super::tree::{Field, Marked, Name, Object, Scene, SpaceStatement, Task, TaskStatement, TaskStatementKind};
+use crate::lang::source::Span;
 
 impl Builder<'_> {
     pub(super) fn task(&mut self, pair: Pair<'_, Rule>) -> Option<Task> {
         let doc = self.doc(&pair);
         let start = self.span(&pair);
         let known = self.bad.len();
+        self.slips(&pair);
         let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
+        let title = self.title(&parts.next()?);
         let mut statements = Vec::new();
         for part in parts {
             let whole = self.span(&part);
@@ -41,7 +43,7 @@ impl Builder<'_> {
         }
         let mut parts = parts(pair);
         Some(match kind {
-            Rule::library_of => Kind::Library(name(self.file, &parts.next()?)),
+            Rule::library_of => Kind::Library(self.title(&parts.next()?)),
             Rule::goal => Kind::Goal(parts.map(|p| name(self.file, &p)).collect()),
             Rule::camera => Kind::Camera(expr(self, parts.next()?)),
             Rule::space => Kind::Space(Box::new(SpaceStatement {
@@ -76,8 +78,9 @@ impl Builder<'_> {
 
     pub(super) fn scene(&mut self, pair: Pair<'_, Rule>) -> Option<Scene> {
         let start = self.span(&pair);
+        self.slips(&pair);
         let mut parts = parts(pair);
-        let title = name(self.file, &parts.next()?);
+        let title = self.title(&parts.next()?);
         let (mut backdrops, mut objects) = (Vec::new(), Vec::new());
         for part in parts {
             match part.as_rule() {
@@ -96,22 +99,16 @@ impl Builder<'_> {
 
     fn object(&mut self, pair: Pair<'_, Rule>) -> Option<Object> {
         let whole = self.span(&pair);
+        self.slips(&pair);
         let mut parts_of = parts(pair);
-        let title = name(self.file, &parts_of.next()?);
+        let title = self.title(&parts_of.next()?);
         let shape = expr(self, parts_of.next()?);
         let at = expr(self, parts_of.next()?);
         let (mut turned, mut marked) = (None, None);
         for part in parts_of {
             match part.as_rule() {
                 Rule::turned => turned = self.value(part),
-                _ => {
-                    let mut names = parts(part).map(|p| name(self.file, &p));
-                    marked = Some(Marked {
-                        library: names.next()?,
-                        layout: names.next()?,
-                        class: names.next()?,
-                    });
-                }
+                _ => marked = self.marked(part),
             }
         }
         Some(Object {
@@ -121,6 +118,38 @@ impl Builder<'_> {
             turned,
             marked,
             span: whole,
+        })
+    }
+
+    fn marked(&mut self, pair: Pair<'_, Rule>) -> Option<Marked> {
+        let whole = self.span(&pair);
+        let mut parts_of = parts(pair);
+        let first = self.title(&parts_of.next()?);
+        let (mut layout, mut class) = (None, None);
+        for part in parts_of {
+            let dotted = part.as_rule() == Rule::marked_layout;
+            let title = parts(part).next().map(|p| self.title(&p));
+            *(if dotted { &mut layout } else { &mut class }) = title;
+        }
+        let unwritten = |span: Span| Name {
+            text: String::new(),
+            span,
+        };
+        let start = Span {
+            end: first.span.start,
+            ..first.span
+        };
+        Some(match layout {
+            Some(layout) => Marked {
+                library: first,
+                layout,
+                class: class.unwrap_or_else(|| unwritten(whole.after())),
+            },
+            None => Marked {
+                library: unwritten(start),
+                layout: first,
+                class: class.unwrap_or_else(|| unwritten(whole.after())),
+            },
         })
     }
 }

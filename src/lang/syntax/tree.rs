@@ -292,7 +292,8 @@ pub struct Object {
     pub span: Span,
 }
 
-/// `marked tanks.hull as tk1`.
+/// `marked tanks.hull as tk1`. Of `marked hull` the library and the class are empty
+/// names where they would stand.
 #[derive(Clone, Debug)]
 pub struct Marked {
     pub library: Name,

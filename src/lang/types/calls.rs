@@ -7,7 +7,8 @@ use super::parameters::Slot;
 use super::scope::Scope;
 use super::typed::{Expr, ExprKind};
 use super::{Checker, units};
-use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::diagnostics::{Code, Diagnostic, Edit, Label};
+use crate::lang::index::Entity;
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::names::{DefinitionId, standard_home};
 use crate::lang::source::Span;
@@ -21,7 +22,10 @@ impl Checker<'_> {
             Some(Some(id)) => self.definition_call(*id, call, span, scope),
             Some(None) => self.arguments_alone(call, scope),
             None => match primitives::find(name) {
-                Some(primitive) => self.primitive_call(primitive, call, span, scope),
+                Some(primitive) => {
+                    self.names.uses(call.name.span, Entity::Primitive(primitive.name));
+                    self.primitive_call(primitive, call, span, scope)
+                }
                 None => {
                     self.unknown_callee(&call.name, scope);
                     self.arguments_alone(call, scope)
@@ -55,6 +59,7 @@ impl Checker<'_> {
                 ty: Some(p.ty),
                 optional: !matches!(p.default, Default::Required),
                 span,
+                entity: Entity::Argument(primitive.name, p.name),
             })
             .collect();
         let given = self.arguments(&wanted, call, scope)?;
@@ -77,6 +82,7 @@ impl Checker<'_> {
         span: Span,
         scope: Scope<'_>,
     ) -> Option<Expr> {
+        self.names.uses(call.name.span, self.entity(id));
         let ty = self.definition(id);
         let signature = self.signatures[id.0].clone();
         let given = self.arguments(&signature, call, scope)?;
@@ -111,6 +117,7 @@ impl Checker<'_> {
                     );
                     None
                 }
+                None if k > wanted.len() => None,
                 None => self.positional_slot(wanted, k, argument.value.span, callee),
             };
             let Some(slot) = slot else {
@@ -138,10 +145,19 @@ impl Checker<'_> {
 
     fn named_slot(&mut self, wanted: &[Slot], name: &tree::Name, callee: &str, scope: Scope<'_>) -> Option<usize> {
         let slot = wanted.iter().position(|w| w.name == name.text);
+        if let Some(slot) = slot {
+            self.names.uses(name.span, wanted[slot].entity);
+        }
         if slot.is_some() || scope.lost(callee) {
             return slot;
         }
         let names = || wanted.iter().map(|w| w.name.as_str());
+        let key = (name.span.file, callee.to_owned(), name.text.clone());
+        if let Some(first) = self.unknown_arguments.get(&key).copied() {
+            self.again(first, name.span);
+            return None;
+        }
+        self.unknown_arguments.insert(key, self.found.len());
         let out = Diagnostic::new(
             Code::E0304,
             name.span,
@@ -156,6 +172,24 @@ impl Checker<'_> {
         };
         self.report(out);
         None
+    }
+
+    /// Adds a place to a diagnostic that would be repeated word by word.
+    fn again(&mut self, first: usize, span: Span) {
+        const MOST_SHOWN: usize = 3;
+        let Some(first) = self.found.get_mut(first).filter(|d| d.primary.span != span) else {
+            return;
+        };
+        if first.related.len() < MOST_SHOWN {
+            first.related.push(Label {
+                span,
+                text: "and here".into(),
+            });
+        }
+        for fix in &mut first.fixes {
+            let text = fix.edits.first().map(|e| e.text.clone()).unwrap_or_default();
+            fix.edits.push(Edit { span, text });
+        }
     }
 
     fn positional_slot(&mut self, wanted: &[Slot], k: usize, span: Span, callee: &str) -> Option<usize> {
@@ -226,7 +260,9 @@ impl Checker<'_> {
                 out.help(format!("did you mean `{near}`?"))
                     .fix(format!("write `{near}`"), name.span, near)
             }
-            (None, None) => out.help("define it with `let`, or import it with `use`"),
+            (None, None) => {
+                out.help(foreign_call(&name.text).unwrap_or("define it with `let`, or import it with `use`"))
+            }
         };
         self.report(out);
     }
@@ -252,6 +288,22 @@ impl Checker<'_> {
             _ => out,
         }
     }
+}
+
+/// What is written for a shape or a function that others have.
+fn foreign_call(name: &str) -> Option<&'static str> {
+    Some(match name.to_ascii_lowercase().as_str() {
+        "box" | "cube" | "cuboid" | "block" => {
+            "a box is a prism of 4 sides: `prism(sides: 4, radius: …, height: …)`, its width is √2 times the radius"
+        }
+        "cylinder" | "disc" | "disk" => "a prism of 12 sides is nearly round: `prism(sides: 12, radius: …, height: …)`",
+        "cone" => "a pyramid of 12 sides is nearly round: `pyramid(sides: 12, radius: …, height: …)`",
+        "stl" | "obj" | "ply" | "model" | "cad" => {
+            "a shape from a file is `mesh(file: \"part.stl\", units: mm, up: z)`"
+        }
+        "aruco" | "apriltag" | "tag" | "barcode" | "qrcode" => "markers are QR codes: `qr(text: \"…\", size: 100 mm)`",
+        _ => return None,
+    })
 }
 
 fn list_names(wanted: &[Slot]) -> String {

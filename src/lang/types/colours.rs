@@ -1,3 +1,3 @@
 //! Colours by name: the one table is with the primitives.
 
-pub(super) use crate::primitives::colours::{named, names};
+pub(in crate::lang) use crate::primitives::colours::{all, named, names};

@@ -4,6 +4,7 @@ use super::scope::Scope;
 use super::typed::{Expr, ExprKind, TextPart};
 use super::{Checker, units};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Entity;
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree;
@@ -25,10 +26,27 @@ impl Checker<'_> {
             tree::ExprKind::Group(inner) => self.check(inner, due, scope),
             tree::ExprKind::Else(a, b) => self.check_else(e.span, (a, b), due, scope),
             tree::ExprKind::Quantity(q) if q.unit.is_none() && !units::of(due.ty).is_empty() => {
-                self.unit_missing(q, due)
+                self.unit_missing(q, due);
+                None
             }
+            tree::ExprKind::Quantity(q) if q.unit.is_some() => {
+                let found = self.quantity(q, e.span)?;
+                if !serves(found.ty, due.ty) {
+                    self.wrong_unit(q, &found, due);
+                    return None;
+                }
+                self.coerce(found, due)
+            }
+            tree::ExprKind::Text(parts) if self.quoted_word(parts, e.span, due) => None,
             tree::ExprKind::List(items) if takes_list(due.ty) => self.check_list(e.span, items, due, scope),
             tree::ExprKind::Reference(r) if self.is_word(r, due.ty, scope) => self.word(r, due),
+            tree::ExprKind::Reference(r) if due.ty == Type::Direction => match self.direction_word(r, scope) {
+                Some(direction) => Some(direction),
+                None => {
+                    let found = self.reference(r, scope)?;
+                    self.coerce(found, due)
+                }
+            },
             tree::ExprKind::Negate(inner) if units::is_quantity(due.ty) && due.ty != Type::Count => {
                 let inner = self.check(inner, due, scope)?;
                 let ty = inner.ty;
@@ -106,8 +124,12 @@ impl Checker<'_> {
                 None => constant(Value::Number(q.value), Type::Number, span),
             });
         };
-        if let Some((ty, si)) = units::find(&unit.text) {
+        if let Some((word, ty, si)) = units::find(&unit.text) {
+            self.names.uses(unit.span, Entity::Unit(word));
             return Some(constant(units::value(ty, q.value, si), ty, span));
+        }
+        if let Some(noun) = units::NOUNS.iter().find(|noun| **noun == unit.text) {
+            self.names.uses(unit.span, Entity::Unit(noun));
         }
         match q.whole {
             Some(n) if units::NOUNS.contains(&unit.text.as_str()) => Some(constant(Value::Count(n), Type::Count, span)),
@@ -136,22 +158,6 @@ impl Checker<'_> {
         self.report(out);
     }
 
-    fn unit_missing<T>(&mut self, q: &tree::Quantity, due: Due<'_>) -> Option<T> {
-        let units = units::of(due.ty);
-        let unit = units.first().copied().unwrap_or_default();
-        let at = q.number;
-        let out = Diagnostic::new(
-            Code::E0302,
-            at,
-            format!("{} is {} and needs a unit", due.what, units::describe(due.ty)),
-        )
-        .label("a bare number")
-        .help(format!("add its unit: {}", one_of(units)))
-        .fix(format!("add `{unit}`"), at.after(), format!(" {unit}"));
-        self.report(out);
-        None
-    }
-
     fn text(&mut self, parts: &[tree::TextPart], span: Span, scope: Scope<'_>) -> Option<Expr> {
         let mut out = Vec::new();
         for part in parts {
@@ -174,6 +180,8 @@ impl Checker<'_> {
             None => false,
         };
         if index || parameter {
+            self.names.uses_local(name);
+            self.uses_parameter(name, scope);
             return Some(TextPart::Hole(name.text.clone()));
         }
         let known: Vec<&str> = scope
@@ -200,10 +208,15 @@ impl Checker<'_> {
         match Colour::try_from(format!("#{digits}")) {
             Ok(colour) => Some(constant(Value::Colour(colour), Type::Colour, span)),
             Err(_) => {
-                self.report(
-                    Diagnostic::new(Code::E0110, span, format!("`#{digits}` is no colour"))
-                        .help("write six hexadecimal digits, like `#ff8000`"),
-                );
+                let out = Diagnostic::new(Code::E0110, span, format!("`#{digits}` is no colour"))
+                    .help("write six hexadecimal digits, like `#ff8000`");
+                let short = digits.len() == 3 && digits.chars().all(|c| c.is_ascii_hexdigit());
+                self.report(if short {
+                    let long: String = digits.chars().flat_map(|c| [c, c]).collect();
+                    out.fix(format!("write `#{long}`"), span, format!("#{long}"))
+                } else {
+                    out
+                });
                 None
             }
         }
@@ -219,6 +232,9 @@ impl Checker<'_> {
         let inner = Due { ty: element, ..due };
         let what = format!("a coordinate of {}", due.what);
         let inner = if triple { Due { what: &what, ..inner } } else { inner };
+        if self.units_missing(span, items, inner) {
+            return None;
+        }
         let list: Vec<Option<Expr>> = items.iter().map(|item| self.check(item, inner, scope)).collect();
         if triple && items.len() != 3 {
             let message = format!("{} has three coordinates, and here are {}", due.what, items.len());
@@ -267,31 +283,21 @@ impl Checker<'_> {
 
     /// Turns what is meant anyway into the type that is due.
     pub(super) fn coerce(&mut self, found: Expr, due: Due<'_>) -> Option<Expr> {
-        let fits = found.ty == due.ty
-            || matches!(
-                (found.ty, due.ty),
-                (Type::Count, Type::Number) | (Type::Edges, Type::List(Type::Edge))
-            );
-        if fits {
+        if serves(found.ty, due.ty) {
             return Some(Expr { ty: due.ty, ..found });
         }
-        let mut out = Diagnostic::new(
-            Code::E0301,
-            found.span,
-            format!(
-                "expected {} for {}, found {}",
-                units::describe(due.ty),
-                due.what,
-                units::describe(found.ty)
-            ),
-        )
-        .label(units::describe(found.ty));
-        if let Some(example) = units::example(due.ty) {
-            out = out.help(format!("write {} {example}", units::describe(due.ty)));
-        }
-        self.report(out);
+        self.wrong_type(&found, due);
         None
     }
+}
+
+/// Whether values of a type serve where another is due.
+fn serves(found: Type, due: Type) -> bool {
+    found == due
+        || matches!(
+            (found, due),
+            (Type::Count, Type::Number) | (Type::Edges, Type::List(Type::Edge))
+        )
 }
 
 fn takes_list(ty: Type) -> bool {

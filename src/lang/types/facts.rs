@@ -9,6 +9,7 @@ use super::scope::Scope;
 use super::stated::{Fact, Given, Place};
 use super::typed::Library;
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Kind;
 use crate::lang::names::suggest::closest;
 use crate::lang::source::Span;
 use crate::lang::syntax::tree;
@@ -51,6 +52,9 @@ impl<'a> Checker<'a> {
             let found = libraries.iter().position(|l| l.name == name.text);
             if found.is_none() {
                 self.no_library(name, libraries);
+            }
+            if found.is_some() {
+                self.uses_listed(name);
             }
             return found;
         }
@@ -139,6 +143,9 @@ impl<'a> Checker<'a> {
             let known = library.classes.iter().map(|c| c.name.as_str());
             self.unknown_item("class", name, known, self.program.main());
         }
+        if let Some(k) = found {
+            self.names.member(Kind::Class, library.classes[k].span, name);
+        }
         found
     }
 
@@ -196,8 +203,8 @@ impl<'a> Checker<'a> {
             match habit.filter(|ours| names.contains(ours) && closest(&word.text, names.iter().copied()).is_none()) {
                 Some(ours) => {
                     let message = format!("{what} cannot be `{}`", word.text);
-                    let out = Diagnostic::new(Code::E0306, word.span, message).help(format!("did you mean `{ours}`?"));
-                    self.report(out.fix(format!("write `{ours}`"), word.span, ours));
+                    let out = Diagnostic::new(Code::E0306, word.span, message);
+                    self.report(out.meant(ours));
                 }
                 None => self.unknown_word(word, what, &names),
             }

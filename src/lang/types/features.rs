@@ -7,6 +7,7 @@ use super::inclusion::Taken;
 use super::scope::{Scope, declared, index_use};
 use super::typed::{Families, Family, Feature, FeatureUse, IndexUse, Members};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::{Entity, Kind};
 use crate::lang::names::{
     self,
     suggest::{closest, one_of},
@@ -18,7 +19,8 @@ use crate::rules::{FeatureId, FeatureKind};
 /// Most features of a library.
 pub(super) const MOST_FEATURES: usize = 4_096;
 
-const KINDS: &[(&str, FeatureKind)] = &[
+/// The kinds of feature by name.
+pub(in crate::lang) const KINDS: &[(&str, FeatureKind)] = &[
     ("polygon", FeatureKind::Polygon),
     ("marker", FeatureKind::Marker),
     ("shell", FeatureKind::Shell),
@@ -66,12 +68,13 @@ impl Checker<'_> {
     }
 
     fn feature_kind(&mut self, word: &tree::Name) -> Option<FeatureKind> {
-        let found = KINDS.iter().find(|(name, _)| *name == word.text).map(|(_, kind)| *kind);
-        if found.is_none() {
+        let Some((name, kind)) = KINDS.iter().find(|(name, _)| *name == word.text) else {
             let names: Vec<&str> = KINDS.iter().map(|(name, _)| *name).collect();
             self.unknown_word(word, "the kind of a feature", &names);
-        }
-        found
+            return None;
+        };
+        self.names.uses(word.span, Entity::Type(name));
+        Some(*kind)
     }
 
     fn members(&mut self, declared: &tree::Feature, kind: FeatureKind, features: &mut Vec<Feature>) -> Option<Members> {
@@ -164,15 +167,15 @@ impl Checker<'_> {
     fn family<'f>(&mut self, name: &tree::Name, scope: Scope<'f>) -> Option<&'f Family> {
         let families = scope.families?;
         let found = families.by_name.get(&name.text);
+        if let Some(family) = found {
+            self.names.uses(name.span, Entity::Declared(Kind::Feature, family.span));
+        }
         let lost = families.open || families.lost.contains(&name.text) || scope.lost(&name.text);
         if found.is_none() && !lost && self.first_time("feature", name) {
             let known = || families.by_name.keys().map(String::as_str);
             let out = Diagnostic::new(Code::E0207, name.span, format!("there is no feature `{}`", name.text));
             self.report(match closest(&name.text, known()) {
-                Some(near) => {
-                    out.help(format!("did you mean `{near}`?"))
-                        .fix(format!("write `{near}`"), name.span, near)
-                }
+                Some(near) => out.meant(near),
                 None if families.by_name.is_empty() => out.help("declare it: `feature name : polygon`"),
                 None => out.help(format!("the library has {}", one_of(known()).replace(" or ", " and "))),
             });
@@ -232,6 +235,9 @@ pub(super) fn feature_use(
         }
         (IndexUse::Literal(n), Members::Indexed(ids)) if ids.contains_key(n) => {}
         (IndexUse::Variable(v), Members::Indexed(_)) => {
+            if let Some(Index::Variable(name)) = index {
+                checker.names.uses_local(name);
+            }
             let known = scope.rule.is_some_and(|r| r.indices.iter().any(|(name, _)| name == v));
             if !known {
                 checker.report(

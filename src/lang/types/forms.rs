@@ -4,15 +4,16 @@ use super::Checker;
 use super::scope::Scope;
 use super::typed::Expr;
 use crate::lang::diagnostics::{Code, Diagnostic};
-use crate::lang::names::suggest::{did_you_mean, one_of};
+use crate::lang::index::Entity;
+use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::syntax::tree;
 use crate::primitives::{Default, Parameter, Primitive, Type};
 use crate::rules::{Colour, Value};
 
 /// `space cube(600 mm)` and `space box(1 m, 1 m, 2 m)`.
-pub(super) const SPACES: &[Primitive] = &[
-    form("cube", &[required("edge", "Edge of the cube.")]),
-    form(
+pub(in crate::lang) const SPACES: &[Primitive] = &[
+    length_form("cube", &[required("edge", "Edge of the cube.")]),
+    length_form(
         "box",
         &[
             required("x", "Extent along x."),
@@ -23,7 +24,7 @@ pub(super) const SPACES: &[Primitive] = &[
 ];
 
 /// `backdrop sphere(radius: 2 m, colour: grey)`.
-pub(super) const BACKDROPS: &[Primitive] = &[form(
+pub(in crate::lang) const BACKDROPS: &[Primitive] = &[length_form(
     "sphere",
     &[
         Parameter {
@@ -46,7 +47,7 @@ pub(in crate::lang) const BACKDROP_RADIUS: f64 = 2.0;
 /// Colour of a backdrop that is not described.
 pub(in crate::lang) const BACKDROP_COLOUR: Colour = Colour([128, 128, 128]);
 
-const fn form(name: &'static str, parameters: &'static [Parameter]) -> Primitive {
+const fn length_form(name: &'static str, parameters: &'static [Parameter]) -> Primitive {
     Primitive {
         name,
         result: Type::Shape,
@@ -63,6 +64,11 @@ const fn required(name: &'static str, doc: &'static str) -> Parameter {
         default: Default::Required,
         doc,
     }
+}
+
+/// The form of a name.
+pub(in crate::lang) fn form(name: &str) -> Option<&'static Primitive> {
+    SPACES.iter().chain(BACKDROPS).find(|form| form.name == name)
 }
 
 impl Checker<'_> {
@@ -86,12 +92,15 @@ impl Checker<'_> {
             }
         };
         let Some(form) = forms.iter().find(|f| f.name == call.name.text) else {
-            let help =
-                did_you_mean(&call.name.text, names()).unwrap_or_else(|| format!("write `{}`", usage(&forms[0])));
             let message = format!("{what} cannot be `{}`", call.name.text);
-            self.report(Diagnostic::new(Code::E0306, call.name.span, message).help(help));
+            let out = Diagnostic::new(Code::E0306, call.name.span, message);
+            self.report(match closest(&call.name.text, names()) {
+                Some(near) => out.meant(near),
+                None => out.help(format!("write `{}`", usage(&forms[0]))),
+            });
             return None;
         };
+        self.names.uses(call.name.span, Entity::Primitive(form.name));
         self.primitive_call(form, call, e.span, scope)
     }
 }

@@ -98,6 +98,9 @@ impl Checker<'_> {
     /// The library that a `use` names.
     fn library_in_scope(&mut self, name: &tree::Name, scope: Scope<'_>) -> Option<LibraryId> {
         if let Some(known) = scope.module.libraries.get(&name.text) {
+            if let Some(id) = known {
+                self.uses_library(name, *id);
+            }
             return *known;
         }
         if let Some(Some(id)) = scope.module.scope.get(&name.text) {

@@ -5,16 +5,17 @@
 
 mod calls;
 mod classes;
-mod colours;
+pub(super) mod colours;
 mod expectations;
 mod expressions;
 mod facts;
 mod fallbacks;
-mod features;
-mod forms;
+pub(super) mod features;
+pub(super) mod forms;
 mod inclusion;
 mod layouts;
 mod library;
+mod mismatch;
 mod operators;
 mod parameters;
 mod references;
@@ -23,7 +24,7 @@ mod scene;
 mod scope;
 mod shadowing;
 pub(super) mod stated;
-mod task;
+pub(super) mod task;
 pub(super) mod typed;
 pub(super) mod units;
 mod words;
@@ -32,15 +33,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::diagnostics::Diagnostic;
+use super::index::{self, Entity, Index, Kind, Recorder};
 use super::names::{self, DefinitionId, LibraryId, Program};
 use super::source::FileId;
 use super::syntax::tree;
 use crate::primitives::Type;
+use crate::rules::FeatureKind;
 use parameters::{Slot, visible};
 use scope::Scope;
 
 /// Checks a program.
-pub(super) fn check(program: &Program) -> (typed::Program, Vec<Diagnostic>) {
+pub(super) fn check(program: &Program) -> (typed::Program, Index, Vec<Diagnostic>) {
     let mut checker = Checker {
         program,
         signatures: Vec::new(),
@@ -50,6 +53,8 @@ pub(super) fn check(program: &Program) -> (typed::Program, Vec<Diagnostic>) {
         parts_taken: 0,
         known_coverage: BTreeMap::new(),
         unknown: BTreeSet::new(),
+        names: Recorder::new(program),
+        unknown_arguments: BTreeMap::new(),
         found: Vec::new(),
     };
     checker.all_signatures();
@@ -60,8 +65,9 @@ pub(super) fn check(program: &Program) -> (typed::Program, Vec<Diagnostic>) {
         checker.library(LibraryId(k));
     }
     let mut out = checker.items(&program.main().tree);
+    checker.record_signatures();
     out.definitions = checker.definitions.into_iter().map(State::done).collect();
-    (out, checker.found)
+    (out, checker.names.index(), checker.found)
 }
 
 struct Checker<'a> {
@@ -79,6 +85,9 @@ struct Checker<'a> {
     known_coverage: BTreeMap<(DefinitionId, usize), bool>,
     /// Unknown names that were reported, each once a file.
     unknown: BTreeSet<(FileId, &'static str, String)>,
+    names: Recorder,
+    /// Unknown arguments by callee and name: which of `found` says so.
+    unknown_arguments: BTreeMap<(FileId, String, String), usize>,
     found: Vec<Diagnostic>,
 }
 
@@ -161,6 +170,56 @@ impl<'a> Checker<'a> {
         Some(ty)
     }
 
+    /// The entity of a definition.
+    fn entity(&self, id: DefinitionId) -> Entity {
+        Entity::Declared(Kind::Definition, self.program.definition(id).tree.name.span)
+    }
+
+    /// Records the name of a library.
+    fn uses_library(&mut self, name: &tree::Name, id: LibraryId) {
+        if let Some((library, _)) = self.program.library(id) {
+            self.names
+                .uses(name.span, Entity::Declared(Kind::Library, library.name.span));
+        }
+    }
+
+    fn record_signatures(&mut self) {
+        for (k, slots) in self.signatures.iter().enumerate() {
+            let id = DefinitionId(k);
+            let body = self.definitions[k].checked();
+            let signature = index::Signature {
+                parameters: slots.iter().map(parameter).collect(),
+                result: body.map(|definition| definition.body.ty),
+                features: self.features_of(id),
+            };
+            self.names
+                .signature(self.program.definition(id).tree.name.span, signature);
+        }
+        for (k, slots) in self.library_signatures.iter().enumerate() {
+            if let Some((library, _)) = self.program.library(LibraryId(k)) {
+                let signature = index::Signature {
+                    parameters: slots.iter().map(parameter).collect(),
+                    ..index::Signature::default()
+                };
+                self.names.signature(library.name.span, signature);
+            }
+        }
+    }
+
+    /// The kinds of feature that a definition is for: those of its primitive.
+    fn features_of(&self, id: DefinitionId) -> &'static [FeatureKind] {
+        let mut next = self.definitions[id.0].checked();
+        // Definitions need no circle: whoever is done was checked after what it names.
+        while let Some(definition) = next {
+            match &definition.body.kind {
+                typed::ExprKind::Primitive(primitive, _) => return primitive.features,
+                typed::ExprKind::Definition(inner, _) => next = self.definitions[inner.0].checked(),
+                _ => break,
+            }
+        }
+        &[]
+    }
+
     fn items(&mut self, file: &'a tree::File) -> typed::Program {
         let mut out = typed::Program::default();
         let each = |want: fn(&tree::Item) -> Option<&tree::Name>| file.items.iter().filter_map(want);
@@ -210,6 +269,15 @@ impl<'a> Checker<'a> {
             _ => None,
         });
         names::unique("object", objects.flatten().map(|o| &o.name), &mut self.found);
+    }
+}
+
+fn parameter(slot: &Slot) -> index::Parameter {
+    index::Parameter {
+        name: slot.name.clone(),
+        ty: slot.ty,
+        optional: slot.optional,
+        at: slot.span,
     }
 }
 

@@ -32,20 +32,66 @@ impl Checker<'_> {
         span: Span,
         scope: Scope<'_>,
     ) -> Option<Expr> {
-        let left = self.infer(a, scope);
-        let right = match (op, &left) {
-            (Operator::Add | Operator::Subtract, Some(l)) if !units::of(l.ty).is_empty() || l.ty == Type::Point => {
-                let what = format!("the right side of `{}`", op.symbol());
-                self.check(b, Due { ty: l.ty, what: &what }, scope)
-            }
-            _ => self.infer(b, scope),
-        };
+        let (left, right) = self.sides(op, (a, b), scope);
         let (left, right) = (left?, right?);
         let Some(ty) = combined(op, left.ty, right.ty) else {
             self.report(cannot_combine(op, &left, &right, span));
             return None;
         };
         Some(made(ExprKind::Binary(op, Box::new(left), Box::new(right)), ty, span))
+    }
+}
+
+impl Checker<'_> {
+    /// Both sides; a bare number beside a quantity lacks its unit.
+    fn sides(
+        &mut self,
+        op: Operator,
+        (a, b): (&tree::Expr, &tree::Expr),
+        scope: Scope<'_>,
+    ) -> (Option<Expr>, Option<Expr>) {
+        let sum = matches!(op, Operator::Add | Operator::Subtract);
+        if sum && is_bare(a) && !is_bare(b) {
+            let right = self.infer(b, scope);
+            let left = self.side(a, right.as_ref(), ("left", op), scope);
+            return (left, right);
+        }
+        let left = self.infer(a, scope);
+        let right = match sum && is_bare(b) {
+            true => self.side(b, left.as_ref(), ("right", op), scope),
+            false => self.infer(b, scope),
+        };
+        (left, right)
+    }
+
+    /// A bare number, and the other side of the sum.
+    fn side(
+        &mut self,
+        e: &tree::Expr,
+        other: Option<&Expr>,
+        (side, op): (&str, Operator),
+        scope: Scope<'_>,
+    ) -> Option<Expr> {
+        match other {
+            Some(other) if !units::of(other.ty).is_empty() => {
+                let what = format!("the {side} side of `{}`", op.symbol());
+                let due = Due {
+                    ty: other.ty,
+                    what: &what,
+                };
+                self.check(e, due, scope)
+            }
+            _ => self.infer(e, scope),
+        }
+    }
+}
+
+/// Whether an expression is a number without a unit.
+fn is_bare(e: &tree::Expr) -> bool {
+    match &e.kind {
+        tree::ExprKind::Quantity(q) => q.unit.is_none(),
+        tree::ExprKind::Group(inner) | tree::ExprKind::Negate(inner) => is_bare(inner),
+        _ => false,
     }
 }
 
@@ -67,7 +113,7 @@ fn combined(op: Operator, left: Type, right: Type) -> Option<Type> {
 
 fn cannot_combine(op: Operator, left: &Expr, right: &Expr, span: Span) -> Diagnostic {
     let help = match op {
-        Operator::Add | Operator::Subtract => "both sides need the same dimension",
+        Operator::Add | Operator::Subtract => "both sides of a sum are of one dimension",
         Operator::Multiply => "one side of `*` is a bare number",
         Operator::Divide => "the right side of `/` is a bare number",
     };
@@ -81,5 +127,7 @@ fn cannot_combine(op: Operator, left: &Expr, right: &Expr, span: Span) -> Diagno
             op.symbol()
         ),
     )
+    .related(left.span, units::describe(left.ty))
+    .related(right.span, units::describe(right.ty))
     .help(help)
 }

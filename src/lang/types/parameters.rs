@@ -5,7 +5,8 @@ use super::scope::{Parameters, Scope};
 use super::typed::Parameter;
 use super::{Checker, units};
 use crate::lang::diagnostics::{Code, Diagnostic};
-use crate::lang::names::suggest::did_you_mean;
+use crate::lang::index::{Entity, Kind};
+use crate::lang::names::suggest::closest;
 use crate::lang::names::{self, Module};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree;
@@ -19,6 +20,7 @@ pub(super) struct Slot {
     pub ty: Option<Type>,
     pub optional: bool,
     pub span: Span,
+    pub entity: Entity,
 }
 
 /// The parameters that the body of a definition or a template sees.
@@ -38,6 +40,7 @@ impl Checker<'_> {
                 ty: self.type_name(&p.ty),
                 optional: p.default.is_some(),
                 span: p.name.span,
+                entity: Entity::Declared(Kind::Parameter, p.name.span),
             })
             .collect()
     }
@@ -100,14 +103,17 @@ impl Checker<'_> {
 
     fn type_name(&mut self, name: &tree::TypeName) -> Option<Type> {
         let element = &name.element;
-        let Some(mut ty) = units::named(&element.text) else {
+        let Some((word, mut ty)) = units::named(&element.text) else {
             let known = units::NAMED.iter().map(|(name, _)| *name);
-            let help = did_you_mean(&element.text, known.clone())
-                .unwrap_or_else(|| format!("types are {}", known.collect::<Vec<_>>().join(", ")));
             let message = format!("there is no type `{}`", element.text);
-            self.report(Diagnostic::new(Code::E0201, element.span, message).help(help));
+            let out = Diagnostic::new(Code::E0201, element.span, message);
+            self.report(match closest(&element.text, known.clone()) {
+                Some(near) => out.meant(near),
+                None => out.help(format!("types are {}", known.collect::<Vec<_>>().join(", "))),
+            });
             return None;
         };
+        self.names.uses(element.span, Entity::Type(word));
         for _ in 0..name.depth {
             let Some(list) = units::list_of(ty) else {
                 let message = format!("there are no lists of {}", units::describe(ty));

@@ -6,6 +6,7 @@ use super::scope::{Role, RuleScope, Scope};
 use super::typed::{Expr, ExprKind, FeatureUse};
 use super::{Checker, colours, units};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::{Entity, Kind};
 use crate::lang::names::{
     DefinitionId, standard_home,
     suggest::{closest, one_of},
@@ -18,9 +19,11 @@ impl Checker<'_> {
     pub(super) fn reference(&mut self, r: &tree::Reference, scope: Scope<'_>) -> Option<Expr> {
         let name = &r.name.text;
         if let Some(ty) = scope.parameter(name) {
+            self.uses_parameter(&r.name, scope);
             return self.parameter(r, ty?);
         }
         if let Some(ty) = scope.variable(name) {
+            self.names.uses_local(&r.name);
             self.no_parts(r, "a `for each` variable")?;
             return Some(made(ExprKind::Variable(name.clone()), ty?, r.span));
         }
@@ -31,6 +34,13 @@ impl Checker<'_> {
             Some(Some(id)) => self.bare_definition(*id, r),
             Some(None) => None,
             None => self.bare_word(r, scope),
+        }
+    }
+
+    /// Records a parameter.
+    pub(super) fn uses_parameter(&mut self, name: &tree::Name, scope: Scope<'_>) {
+        if let Some((_, at)) = scope.parameters.and_then(|p| p.get(&name.text)) {
+            self.names.uses(name.span, Entity::Declared(Kind::Parameter, *at));
         }
     }
 
@@ -68,6 +78,7 @@ impl Checker<'_> {
 
     /// `kinect_v2`: a definition without parameters.
     fn bare_definition(&mut self, id: DefinitionId, r: &tree::Reference) -> Option<Expr> {
+        self.names.uses(r.name.span, self.entity(id));
         self.no_parts(r, "a definition")?;
         let parameters = &self.signatures[id.0];
         if parameters.iter().all(|p| p.optional) {
@@ -87,6 +98,7 @@ impl Checker<'_> {
     fn bare_word(&mut self, r: &tree::Reference, scope: Scope<'_>) -> Option<Expr> {
         let name = &r.name.text;
         if let Some(primitive) = primitives::find(name) {
+            self.names.uses(r.name.span, Entity::Primitive(primitive.name));
             let call = format!("{name}()");
             let out = Diagnostic::new(Code::E0303, r.span, format!("`{name}` is called with parentheses"));
             let out = if primitive
@@ -105,8 +117,9 @@ impl Checker<'_> {
         }
         if r.index.is_none()
             && r.fields.is_empty()
-            && let Some(colour) = colours::named(name)
+            && let Some((word, colour)) = colours::all().find(|(n, _)| n == name)
         {
+            self.names.uses(r.span, Entity::Colour(word));
             return Some(constant(Value::Colour(colour), Type::Colour, r.span));
         }
         self.unknown_name(&r.name, scope);
@@ -140,10 +153,7 @@ impl Checker<'_> {
                 "it is in the standard library: add `use std.{module}.{}`",
                 name.text
             )),
-            (Some(near), _) => {
-                out.help(format!("did you mean `{near}`?"))
-                    .fix(format!("write `{near}`"), name.span, near)
-            }
+            (Some(near), _) => out.meant(&near),
             (None, None) => out.help("define it with `let`, or import it with `use`"),
         });
     }
@@ -177,9 +187,9 @@ impl Checker<'_> {
         kind: FeatureKind,
     ) -> Option<&'static Attribute> {
         let known: &'static [Attribute] = attributes(kind);
-        let found = known.iter().find(|a| a.name == field.text);
-        if found.is_some() {
-            return found;
+        if let Some(found) = known.iter().find(|a| a.name == field.text) {
+            self.names.uses(field.span, Entity::Attribute(kind.into(), found.name));
+            return Some(found);
         }
         let names = || known.iter().map(|a| a.name);
         let out = Diagnostic::new(
@@ -188,9 +198,7 @@ impl Checker<'_> {
             format!("a {kind} like `{owner}` has no attribute `{}`", field.text),
         );
         self.report(match closest(&field.text, names()) {
-            Some(near) => out
-                .help(format!("did you mean `{near}`?"))
-                .fix(format!("write `{near}`"), field.span, near),
+            Some(near) => out.meant(near),
             None => out.help(format!("it has {}", one_of(names()).replace(" or ", " and "))),
         });
         None

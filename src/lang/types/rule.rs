@@ -7,6 +7,7 @@ use super::scope::{Role, RuleScope, Scope, declared, index_use};
 use super::shadowing::hides;
 use super::typed::{Each, Expr, FeatureUse, IndexUse, Rule};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Kind;
 use crate::lang::names;
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, Index};
@@ -41,6 +42,7 @@ impl<'a> Checker<'a> {
 
     /// The features and index variables of a rule's `->` line.
     fn rule_scope(&mut self, rule: &tree::Rule, outer: Scope<'_>) -> Option<RuleScope> {
+        self.names.begin_rule();
         let heads: Vec<&tree::FeatureRef> = rule.antecedents.iter().chain([&rule.consequent]).collect();
         let indices = self.indices(&heads, outer);
         let mut scope = RuleScope {
@@ -73,6 +75,7 @@ impl<'a> Checker<'a> {
             };
             self.hides_a_parameter("index variable", name, outer);
             let values = declared(family);
+            self.names.local(Kind::Index, name, None);
             match out.iter_mut().find(|(n, _)| *n == name.text) {
                 Some((_, known)) => known.retain(|v| values.contains(v)),
                 None => out.push((name.text.clone(), values)),
@@ -114,6 +117,8 @@ impl<'a> Checker<'a> {
                 self.hides_something("variable", name, outer);
             }
             let checked = self.one_each(each, scope, outer);
+            self.names
+                .local(Kind::Variable, name, checked.as_ref().map(|_| Type::Edge));
             scope
                 .each
                 .push((name.text.clone(), checked.as_ref().map(|_| Type::Edge)));

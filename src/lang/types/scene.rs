@@ -5,6 +5,8 @@ use super::expressions::Due;
 use super::forms::BACKDROPS;
 use super::scope::Scope;
 use super::typed::{Expr, Library, Marked, Object, Scene};
+use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Kind;
 use crate::lang::syntax::tree;
 use crate::primitives::Type;
 
@@ -62,12 +64,52 @@ impl<'a> Checker<'a> {
         })
     }
 
+    /// `marked hull`: says which library has that layout.
+    fn incomplete_mark(&mut self, marked: &tree::Marked, libraries: &[Library]) {
+        let at = marked.library.span.to(marked.class.span);
+        let layout = &marked.layout.text;
+        let homes: Vec<&Library> = (libraries.iter())
+            .filter(|l| l.layouts.iter().any(|known| known.name == *layout))
+            .collect();
+        let named = libraries.iter().find(|l| l.name == marked.library.text);
+        let whole = |class: &str| match (homes.as_slice(), named.or(homes.first().copied())) {
+            ([_, _, ..], None) | (_, None) => format!("marked LIBRARY.{layout} as {class}"),
+            (_, Some(library)) => format!("marked {}.{layout} as {class}", library.name),
+        };
+        if marked.library.text.is_empty() {
+            let message = format!("`{layout}` is the layout of some library: say of which");
+            let out = Diagnostic::new(Code::E0208, at, message);
+            let class = if marked.class.text.is_empty() {
+                "CLASS"
+            } else {
+                &marked.class.text
+            };
+            let out = out.help(format!("write `{}`", whole(class)));
+            self.report(match homes.as_slice() {
+                [library] if !marked.class.text.is_empty() => {
+                    let insert = format!("{}.", library.name);
+                    out.fix(format!("write `{}`", whole(class)), marked.library.span, insert)
+                }
+                _ => out,
+            });
+            return;
+        }
+        let message = "this says where the markers are, not which of them the object has";
+        let out = Diagnostic::new(Code::E0208, at, message);
+        self.report(out.help(format!("add the class: `{}`", whole("CLASS"))));
+    }
+
     fn marked(&mut self, marked: &tree::Marked, libraries: &[Library]) -> Option<Marked> {
+        if marked.library.text.is_empty() || marked.class.text.is_empty() {
+            self.incomplete_mark(marked, libraries);
+            return None;
+        }
         let Some(library) = libraries.iter().position(|l| l.name == marked.library.text) else {
             self.no_library(&marked.library, libraries);
             return None;
         };
         let here = &libraries[library];
+        self.uses_listed(&marked.library);
         let main = self.program.main();
         let layout = here.layouts.iter().position(|l| l.name == marked.layout.text);
         if layout.is_none() {
@@ -78,6 +120,10 @@ impl<'a> Checker<'a> {
                 main,
             );
         }
+        if let Some(layout) = layout {
+            self.names
+                .member(Kind::Layout, here.layouts[layout].span, &marked.layout);
+        }
         let class = here.classes.iter().position(|c| c.name == marked.class.text);
         if class.is_none() {
             self.unknown_item(
@@ -86,6 +132,9 @@ impl<'a> Checker<'a> {
                 here.classes.iter().map(|c| c.name.as_str()),
                 main,
             );
+        }
+        if let Some(class) = class {
+            self.names.member(Kind::Class, here.classes[class].span, &marked.class);
         }
         Some(Marked {
             library,

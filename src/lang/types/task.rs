@@ -8,6 +8,7 @@ use super::forms::SPACES;
 use super::scope::Scope;
 use super::typed::{Expr, Library, Task};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Entity;
 use crate::lang::names::Module;
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
@@ -16,17 +17,23 @@ use crate::primitives::Type;
 use crate::rules::{Goal, Inspected};
 
 /// The methods of choosing views.
-const METHODS: &[&str] = &[
+pub(in crate::lang) const METHODS: &[&str] = &[
     "gn", "gno", "joint", "oa", "uv", "rsv", "rse", "pc", "af", "ae", "ts", "pfdt", "random",
 ];
 /// The method where a task names none.
 const USUAL_METHOD: &str = "gn";
-const THRESHOLDS: &[(&str, Type)] = &[
+/// What a task can aim at.
+pub(in crate::lang) const GOALS: &[&str] = &["confident", "exhausted"];
+/// When a feature counts as inspected.
+pub(in crate::lang) const INSPECTED: &[&str] = &["observed", "near_point"];
+/// What is verified.
+pub(in crate::lang) const VERIFY: &[&str] = &["all"];
+pub(in crate::lang) const THRESHOLDS: &[(&str, Type)] = &[
     ("near", Type::Length),
     ("absent", Type::Share),
     ("confidence", Type::Share),
 ];
-const SENSOR_MODEL: &[(&str, Type)] = &[
+pub(in crate::lang) const SENSOR_MODEL: &[(&str, Type)] = &[
     ("hit", Type::Share),
     ("miss", Type::Share),
     ("clamp_min", Type::Share),
@@ -39,7 +46,7 @@ const SENSOR_MODEL: &[(&str, Type)] = &[
 struct Draft {
     seen: BTreeMap<&'static str, Span>,
     library: Option<String>,
-    goal: Option<Goal>,
+    goal: Option<(Goal, Span)>,
     values: BTreeMap<&'static str, Expr>,
     method: Option<String>,
     inspected: Option<Inspected>,
@@ -69,7 +76,11 @@ impl<'a> Checker<'a> {
     fn statement(&mut self, statement: &tree::TaskStatement, draft: &mut Draft, libraries: &[Library]) {
         match &statement.kind {
             Kind::Library(name) => draft.library = self.library_of(name, libraries),
-            Kind::Goal(words) => draft.goal = self.goal(words),
+            Kind::Goal(words) => {
+                let last = words.last().map_or(statement.span, |w| w.span);
+                let span = words.first().map_or(statement.span, |w| w.span.to(last));
+                draft.goal = self.goal(words).map(|goal| (goal, span));
+            }
             Kind::Camera(e) => self.value(draft, "camera", e, Type::Camera),
             Kind::Space(space) => {
                 let scope = Scope::of(self.program.main());
@@ -85,17 +96,15 @@ impl<'a> Checker<'a> {
             Kind::Method(name) => draft.method = self.method(name),
             Kind::GainFloor(e) => self.count(draft, "gain_floor", e, "voxels"),
             Kind::Inspected(name) => {
-                draft.inspected = self
-                    .one_of_words(name, "`inspected`", &["observed", "near_point"])
-                    .map(|word| {
-                        if word == "near_point" {
-                            Inspected::NearPoint
-                        } else {
-                            Inspected::Observed
-                        }
-                    });
+                draft.inspected = self.one_of_words(name, "`inspected`", INSPECTED).map(|word| {
+                    if word == "near_point" {
+                        Inspected::NearPoint
+                    } else {
+                        Inspected::Observed
+                    }
+                });
             }
-            Kind::Verify(name) => draft.verify = self.one_of_words(name, "`verify`", &["all"]).is_some(),
+            Kind::Verify(name) => draft.verify = self.one_of_words(name, "`verify`", VERIFY).is_some(),
             Kind::SensorModel(fields) => draft.sensor_model = self.fields(fields, SENSOR_MODEL, "sensor_model"),
         }
     }
@@ -128,10 +137,18 @@ impl<'a> Checker<'a> {
 
     fn library_of(&mut self, name: &tree::Name, libraries: &[Library]) -> Option<String> {
         if libraries.iter().any(|l| l.name == name.text) {
+            self.uses_listed(name);
             return Some(name.text.clone());
         }
         self.no_library(name, libraries);
         None
+    }
+
+    /// Records a library that a task or a scene names.
+    pub(super) fn uses_listed(&mut self, name: &tree::Name) {
+        if let Some(Some(id)) = self.program.main().libraries.get(&name.text) {
+            self.uses_library(name, *id);
+        }
     }
 
     /// Reports a name that is no library for a task or a scene.
@@ -187,7 +204,12 @@ impl<'a> Checker<'a> {
             exhausted: false,
         };
         for name in words {
-            let part = match self.one_of_words(name, "`goal`", &["confident", "exhausted"])? {
+            let Some(word) = GOALS.iter().copied().find(|word| *word == name.text) else {
+                self.no_goal(name);
+                return None;
+            };
+            self.names.uses(name.span, Entity::Word(word));
+            let part = match word {
                 "confident" => &mut goal.confident,
                 _ => &mut goal.exhausted,
             };
@@ -199,17 +221,35 @@ impl<'a> Checker<'a> {
         Some(goal)
     }
 
+    fn no_goal(&mut self, name: &tree::Name) {
+        let out = Diagnostic::new(Code::E0306, name.span, format!("`goal` cannot be `{}`", name.text));
+        let ours = match name.text.to_ascii_lowercase().as_str() {
+            "classify" | "recognise" | "recognize" | "identify" | "detect" | "class" => Some("confident"),
+            "reconstruct" | "explore" | "scan" | "inspect" | "cover" | "complete" | "model" => Some("exhausted"),
+            other => closest(other, ["confident", "exhausted"]),
+        };
+        let out = out.help(
+            "it is `confident` (the class is known), `exhausted` (no view can gain anything) or `confident and exhausted`",
+        );
+        self.report(match ours {
+            Some(ours) => out.fix(format!("write `{ours}`"), name.span, ours),
+            None => out,
+        });
+    }
+
     fn one_of_words(&mut self, name: &tree::Name, what: &str, words: &[&'static str]) -> Option<&'static str> {
         let found = words.iter().find(|w| **w == name.text).copied();
-        if found.is_none() {
-            self.unknown_word(name, what, words);
+        match found {
+            Some(word) => self.names.uses(name.span, Entity::Word(word)),
+            None => self.unknown_word(name, what, words),
         }
         found
     }
 
     fn method(&mut self, name: &tree::Name) -> Option<String> {
         let lower = name.text.to_ascii_lowercase();
-        if METHODS.contains(&lower.as_str()) {
+        if let Some(word) = METHODS.iter().find(|word| **word == lower) {
+            self.names.uses(name.span, Entity::Word(word));
             return Some(lower);
         }
         self.unknown_word(name, "`method`", METHODS);
@@ -221,7 +261,7 @@ impl<'a> Checker<'a> {
         &mut self,
         fields: &[tree::Field],
         known: &[(&'static str, Type)],
-        word: &str,
+        word: &'static str,
     ) -> BTreeMap<&'static str, Option<Expr>> {
         let mut seen: BTreeMap<&str, Span> = BTreeMap::new();
         let mut out = BTreeMap::new();
@@ -232,6 +272,7 @@ impl<'a> Checker<'a> {
                 self.unknown_word(name, &format!("a field of `{word}`"), &names);
                 continue;
             };
+            self.names.uses(name.span, Entity::Field(word, known_name));
             if let Some(first) = seen.insert(known_name, name.span) {
                 self.surplus(name.span, first, &name.text);
                 continue;
@@ -293,11 +334,12 @@ impl<'a> Checker<'a> {
 
 /// The task, where everything that it needs is there and right.
 fn assemble(task: &tree::Task, mut draft: Draft) -> Option<Task> {
+    let (goal, goal_span) = draft.goal?;
     Some(Task {
         name: task.name.text.clone(),
         library: draft.library?,
-        goal: draft.goal?,
-        goal_span: *draft.seen.get("goal")?,
+        goal,
+        goal_span,
         camera: draft.values.remove("camera")?,
         shape: draft.values.remove("space")?,
         at: draft.values.remove("at")?,

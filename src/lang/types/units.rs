@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::primitives::Type;
 use crate::rules::Value;
 
-const UNITS: &[(&str, Type, f64)] = &[
+pub(in crate::lang) const UNITS: &[(&str, Type, f64)] = &[
     ("mm", Type::Length, 1e-3),
     ("cm", Type::Length, 1e-2),
     ("m", Type::Length, 1.0),
@@ -18,11 +18,16 @@ const UNITS: &[(&str, Type, f64)] = &[
 ];
 
 /// Nouns after whole numbers.
-pub(super) const NOUNS: &[&str] = &["views", "voxels"];
+pub(in crate::lang) const NOUNS: &[&str] = &["views", "voxels"];
 
 /// The units and nouns that can follow a number.
 pub(super) fn all() -> impl Iterator<Item = &'static str> {
     UNITS.iter().map(|(name, ..)| *name).chain(NOUNS.iter().copied())
+}
+
+/// A unit: its name, its type, and what one of it is in SI units.
+pub(in crate::lang) fn find(unit: &str) -> Option<(&'static str, Type, f64)> {
+    UNITS.iter().find(|(name, ..)| *name == unit).copied()
 }
 
 /// What the last digit of a written number stands for in SI units: 0.001 of
@@ -31,21 +36,13 @@ pub(in crate::lang) fn last_digit(written: &str) -> Option<f64> {
     let (whole, rest) = written.split_once('.')?;
     let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
     let unit = rest[digits..].trim();
-    let si = if unit.is_empty() { 1.0 } else { find(unit)?.1 };
+    let si = if unit.is_empty() { 1.0 } else { find(unit)?.2 };
     let number = !whole.is_empty() && whole.bytes().all(|b| b.is_ascii_digit()) && digits > 0;
     number.then(|| si * 0.1_f64.powi(digits as i32))
 }
 
-/// The type of a unit, and what one of it is in SI units.
-pub(super) fn find(unit: &str) -> Option<(Type, f64)> {
-    UNITS
-        .iter()
-        .find(|(name, ..)| *name == unit)
-        .map(|(_, ty, si)| (*ty, *si))
-}
-
 /// The units of a type, the usual one first.
-pub(super) fn of(ty: Type) -> Vec<&'static str> {
+pub(in crate::lang) fn of(ty: Type) -> Vec<&'static str> {
     UNITS
         .iter()
         .filter(|(_, t, _)| *t == ty)
@@ -55,7 +52,7 @@ pub(super) fn of(ty: Type) -> Vec<&'static str> {
 
 /// A number of a unit as a constant. A factor below one divides by its whole
 /// inverse, so that `10 mm` is the same number as `0.01 m`.
-pub(super) fn value(ty: Type, number: f64, si: f64) -> Value {
+pub(in crate::lang) fn value(ty: Type, number: f64, si: f64) -> Value {
     let inverse = (1.0 / si).round();
     let whole = si < 1.0 && (1.0 / inverse - si).abs() < 1e-15;
     let x = if whole { number / inverse } else { number * si };
@@ -82,7 +79,7 @@ pub(super) fn is_quantity(ty: Type) -> bool {
 }
 
 /// A type with its article.
-pub(super) fn describe(ty: Type) -> String {
+pub(in crate::lang) fn describe(ty: Type) -> String {
     match ty {
         Type::Length => "a length".into(),
         Type::Angle => "an angle".into(),
@@ -117,7 +114,7 @@ fn plural(ty: Type) -> String {
 }
 
 /// How a value of a type is written, as an example.
-pub(super) fn example(ty: Type) -> Option<&'static str> {
+pub(in crate::lang) fn example(ty: Type) -> Option<&'static str> {
     Some(match ty {
         Type::Length => "like `10 mm`",
         Type::Angle => "like `30 deg`",
@@ -125,23 +122,23 @@ pub(super) fn example(ty: Type) -> Option<&'static str> {
         Type::Time => "like `100 ms`",
         Type::Number => "like `0.5`",
         Type::Count => "like `64`",
-        Type::Colour => "a name like `red`, or `#ff8000`",
+        Type::Colour => "like `red` or `#ff8000`",
         Type::Text => "in double quotes",
         Type::Direction => "like `+x`, `-z` or `[0, 0.7, 0.7]`",
         Type::Point => "like `[0 mm, 0 mm, 300 mm]`",
         Type::Edge => "like `bottom.base`, or the variable of a `for each`",
-        Type::Polygon => "the name of a polygon feature",
+        Type::Polygon => "by the name of a polygon feature",
         _ => return None,
     })
 }
 
-/// The type of a name in a parameter list.
-pub(super) fn named(word: &str) -> Option<Type> {
-    NAMED.iter().find(|(name, _)| *name == word).map(|(_, ty)| *ty)
+/// A name of a type in a parameter list.
+pub(super) fn named(word: &str) -> Option<(&'static str, Type)> {
+    NAMED.iter().find(|(name, _)| *name == word).copied()
 }
 
 /// Names of types in parameter lists.
-pub(super) const NAMED: &[(&str, Type)] = &[
+pub(in crate::lang) const NAMED: &[(&str, Type)] = &[
     ("length", Type::Length),
     ("angle", Type::Angle),
     ("share", Type::Share),
@@ -194,7 +191,7 @@ mod tests {
     #[test]
     fn ten_millimetres_are_exactly_a_hundredth() {
         let of = |n: f64, unit: &str| {
-            let (ty, si) = find(unit).unwrap();
+            let (_, ty, si) = find(unit).unwrap();
             value(ty, n, si)
         };
         assert_eq!(of(10.0, "mm"), Value::Length(0.01));
@@ -215,6 +212,6 @@ mod tests {
 
     #[test]
     fn every_listed_type_has_a_name_back() {
-        assert!(NAMED.iter().all(|(name, ty)| named(name) == Some(*ty)));
+        assert!(NAMED.iter().all(|(name, ty)| named(name) == Some((*name, *ty))));
     }
 }

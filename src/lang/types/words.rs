@@ -5,6 +5,7 @@ use super::scope::Scope;
 use super::typed::Expr;
 use super::{Checker, colours};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::index::Entity;
 use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::syntax::tree;
 use crate::primitives::Type;
@@ -28,12 +29,19 @@ impl Checker<'_> {
             _ => colours::names().collect(),
         };
         let value = match due.ty {
-            Type::Choice(_) if words.contains(&name.text.as_str()) => Some(Value::Choice(name.text.clone())),
-            Type::Choice(_) => None,
-            _ => colours::named(&name.text).map(Value::Colour),
+            Type::Choice(words) => words
+                .iter()
+                .find(|word| **word == name.text)
+                .map(|word| (Entity::Word(word), Value::Choice(name.text.clone()))),
+            _ => colours::all()
+                .find(|(word, _)| *word == name.text)
+                .map(|(word, colour)| (Entity::Colour(word), Value::Colour(colour))),
         };
         match value {
-            Some(value) => Some(constant(value, due.ty, r.span)),
+            Some((entity, value)) => {
+                self.names.uses(name.span, entity);
+                Some(constant(value, due.ty, r.span))
+            }
             None => {
                 self.unknown_word(name, due.what, &words);
                 None
@@ -45,9 +53,7 @@ impl Checker<'_> {
     pub(super) fn unknown_word(&mut self, name: &tree::Name, what: &str, words: &[&str]) {
         let out = Diagnostic::new(Code::E0306, name.span, format!("{what} cannot be `{}`", name.text));
         let out = match closest(&name.text, words.iter().copied()) {
-            Some(near) => out
-                .help(format!("did you mean `{near}`?"))
-                .fix(format!("write `{near}`"), name.span, near),
+            Some(near) => out.meant(near),
             None => out.help(format!("it is {}", one_of(words.iter().copied()))),
         };
         self.report(out);

@@ -8,7 +8,7 @@ use super::feature::absence_text;
 use super::history::Past;
 use super::words::{mark, plural, share, state};
 use crate::plan::{Absence, Existence};
-use crate::show::log::{Feature, View};
+use crate::show::log::{Contradiction, Feature, View};
 
 /// Why a class is left, or was excluded.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -23,6 +23,9 @@ pub struct ClassAnswer {
     pub excluded: Option<u32>,
     /// What was decided about features by then, and whether it fits the class.
     pub evidence: Vec<Evidence>,
+    /// What contradicted the library, where that left no class.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contradiction: Option<Contradiction>,
     /// The classes that are left, with their probabilities.
     pub left: Vec<(String, f64)>,
     /// The share of a place from which a feature counts as absent.
@@ -63,6 +66,10 @@ pub(super) fn answer(past: &Past<'_>, name: &str) -> ClassAnswer {
         posterior: prior.into_iter().chain(past.views.iter().map(after)).collect(),
         excluded: excluded.map(|v| v.n),
         evidence: evidence(past, name, excluded.or(past.last())),
+        contradiction: past
+            .contradiction()
+            .filter(|_| left.iter().all(|(_, p)| *p <= 0.0))
+            .cloned(),
         left: left.iter().filter(|(_, p)| *p > 0.0).cloned().collect(),
         absent_from: past.absent_share(),
     }
@@ -115,6 +122,13 @@ impl ClassAnswer {
         }
         for evidence in shown {
             let _ = writeln!(text, "  {}", evidence.to_text(&self.class, self.absent_from));
+        }
+        if let Some(c) = &self.contradiction {
+            let _ = writeln!(
+                text,
+                "\nno class is left, for the library is contradicted\n  {}: {}",
+                c.feature, c.evidence
+            );
         }
         let posterior: Vec<String> = self.posterior.iter().map(|p| format!("{p:.3}")).collect();
         let _ = writeln!(text, "\nprobability {}", posterior.join(" → "));

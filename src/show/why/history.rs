@@ -1,7 +1,7 @@
 //! A run up to a measurement: what the answers have in common.
 
 use crate::plan::{Absence, Existence, RuleTrace};
-use crate::show::log::{Class, Feature, Rule, Run, View};
+use crate::show::log::{Class, Contradiction, Feature, Rule, Run, View};
 
 /// A run as far as a question goes.
 pub(super) struct Past<'a> {
@@ -33,9 +33,10 @@ impl<'a> Past<'a> {
         self.feature(name).map_or(Existence::Unknown.code(), |f| f.state)
     }
 
-    /// The first measurement after which a feature was in the state that it is in now.
+    /// The first measurement after which a feature was in the state that it is in
+    /// now; `None` where nothing is known of it.
     pub fn since(&self, name: &str) -> Option<u32> {
-        let state = self.state(name);
+        let state = Some(self.state(name)).filter(|s| *s != Existence::Unknown.code())?;
         let other = |view: &&View| view.features.get(name).is_none_or(|f| f.state != state);
         let same = self.views.iter().rev().take_while(|v| !other(v));
         same.last().map(|v| v.n)
@@ -78,6 +79,12 @@ impl<'a> Past<'a> {
     /// How a feature came to count as absent, and after which measurement.
     pub fn absence(&self, feature: &str) -> Option<(u32, &'a Absence)> {
         self.views.iter().find_map(|v| Some((v.n, v.absent.get(feature)?)))
+    }
+
+    /// What contradicted the library, where the run ended so by the last measurement.
+    pub fn contradiction(&self) -> Option<&'a Contradiction> {
+        let whole = self.views.len() == self.run.views.len();
+        self.run.end.as_ref().filter(|_| whole)?.contradiction.as_ref()
     }
 
     /// ξ_ned, where the log says it.

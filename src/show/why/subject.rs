@@ -49,6 +49,8 @@ struct Names {
     features: Vec<String>,
     classes: Vec<String>,
     instances: BTreeSet<String>,
+    /// Whether the log lists the rules.
+    listed: bool,
 }
 
 impl Subject {
@@ -68,7 +70,7 @@ impl Subject {
         let names = Names::of(run);
         let owned = rest.to_owned();
         let found = match kind {
-            "rule" => names.rules.contains(rest).then_some(Self::Rule(owned)),
+            "rule" => names.has_rule(rest).then_some(Self::Rule(owned)),
             "feature" => names.features.contains(&owned).then_some(Self::Feature(owned)),
             "class" => names.classes.contains(&owned).then_some(Self::Class(owned)),
             "instance" => names.instances.contains(rest).then_some(Self::Instance(owned)),
@@ -136,12 +138,20 @@ impl Names {
             features: run.start.weights.names().map(str::to_owned).collect(),
             classes,
             instances: instances().map(|i| i.key.clone()).collect(),
+            listed: run.start.library.is_some(),
         }
+    }
+
+    /// A log that does not list its rules may be of any.
+    fn has_rule(&self, id: &str) -> bool {
+        let digits = id.strip_prefix('r').filter(|n| !n.is_empty() && n.len() < 10);
+        let plausible = !self.listed && digits.is_some_and(|n| n.bytes().all(|b| b.is_ascii_digit()));
+        plausible || self.rules.contains(id)
     }
 
     fn find(&self, name: &str) -> Option<Subject> {
         let owned = name.to_owned();
-        if self.rules.contains(name) {
+        if self.has_rule(name) {
             Some(Subject::Rule(owned))
         } else if self.features.contains(&owned) {
             Some(Subject::Feature(owned))

@@ -8,7 +8,7 @@ use super::history::Past;
 use super::words::{self, mark, plural, quantity, share};
 use crate::detect::{Condition, Test, Unit};
 use crate::show::lines::{aim, found_since, remaining};
-use crate::show::log::{Next, Standing, Stop, View};
+use crate::show::log::{Contradiction, Next, Standing, Stop, View};
 
 /// Why a measurement was made from a view, and what came of it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -31,8 +31,9 @@ pub struct ViewAnswer {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop: Option<Stop>,
 
-    /// Whether the log goes no further.
-    pub last: bool,
+    /// What contradicted the library.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contradiction: Option<Contradiction>,
 }
 
 /// A decision for a view.
@@ -74,7 +75,7 @@ pub(super) fn answer(past: &Past<'_>, n: u32) -> ViewAnswer {
                 .map(bare_stop)
         }),
 
-        last: n as usize == past.run.views.len(),
+        contradiction: past.contradiction().cloned(),
     }
 }
 
@@ -144,6 +145,9 @@ impl ViewAnswer {
 
     fn stop_to(&self, stop: &Stop, text: &mut String) {
         let _ = writeln!(text, "then        the run stopped: {}", stop_reason(stop));
+        if let Some(c) = &self.contradiction {
+            let _ = writeln!(text, "  {}: {}", c.feature, c.evidence);
+        }
         for condition in &stop.because {
             let _ = writeln!(text, "  {}", ending(condition, stop));
         }

@@ -132,7 +132,13 @@ mod tests {
 
     #[test]
     fn a_condition_says_its_value_and_its_bounds() {
-        let angle = Condition::about("dihedral", Unit::Angle, 1.2444, 1.570_796_3, 0.174_532_9);
+        let angle = Condition::about(
+            "dihedral",
+            Unit::Angle,
+            1.2444,
+            90_f64.to_radians(),
+            10_f64.to_radians(),
+        );
         assert_eq!(condition(&angle), "✗ dihedral 71.3° (80° to 100°)");
         let green = Condition::at_least("colour", Unit::Pixels, 412.0, 4.0).of(Some("#1ea032".into()));
         assert_eq!(condition(&green), "✓ colour green 412 px (at least 4 px)");

@@ -1,0 +1,83 @@
+//! Every expression of a file, in the order of the text.
+
+use crate::lang::syntax::tree::{Expr, ExprKind, File, Item, Library, Parameter, TaskStatementKind as Kind};
+
+/// Calls `see` with every expression, the outer before the inner.
+pub(super) fn expressions<'t>(file: &'t File, see: &mut impl FnMut(&'t Expr)) {
+    for item in &file.items {
+        match item {
+            Item::Let(item) => {
+                defaults(&item.parameters, see);
+                inside(&item.body, see);
+            }
+            Item::Library(library) => in_library(library, see),
+            Item::Task(task) => task.statements.iter().for_each(|s| in_statement(&s.kind, see)),
+            Item::Scene(scene) => {
+                scene.backdrops.iter().for_each(|b| inside(&b.value, see));
+                for object in &scene.objects {
+                    let turned = object.turned.iter();
+                    [&object.shape, &object.at]
+                        .into_iter()
+                        .chain(turned)
+                        .for_each(|e| inside(e, see));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn defaults<'t>(parameters: &'t [Parameter], see: &mut impl FnMut(&'t Expr)) {
+    let defaults = parameters.iter().filter_map(|p| p.default.as_ref());
+    defaults.for_each(|e| inside(e, see));
+}
+
+fn in_library<'t>(library: &'t Library, see: &mut impl FnMut(&'t Expr)) {
+    defaults(library.parameters.as_deref().unwrap_or_default(), see);
+    let arguments = library.uses.iter().flat_map(|u| &u.call.arguments);
+    arguments.for_each(|a| inside(&a.value, see));
+    let rows = library
+        .tables
+        .iter()
+        .flat_map(|t| &t.rows)
+        .filter_map(|r| r.prior.as_ref());
+    let priors = library.classes.iter().filter_map(|c| c.prior.as_ref()).chain(rows);
+    priors.for_each(|e| inside(e, see));
+    for rule in &library.rules {
+        let parts = rule.detect.iter().chain(&rule.measure).chain(&rule.predict);
+        parts.for_each(|s| inside(&s.value, see));
+    }
+    for place in library.layouts.iter().flat_map(|l| &l.places) {
+        inside(&place.at, see);
+        inside(&place.facing, see);
+    }
+}
+
+fn in_statement<'t>(kind: &'t Kind, see: &mut impl FnMut(&'t Expr)) {
+    match kind {
+        Kind::Camera(e) | Kind::Views(e) | Kind::Limit(e) | Kind::Overlap(e) | Kind::GainFloor(e) => inside(e, see),
+        Kind::Space(space) => [&space.shape, &space.at, &space.voxel]
+            .into_iter()
+            .for_each(|e| inside(e, see)),
+        Kind::Thresholds(fields) | Kind::SensorModel(fields) => fields.iter().for_each(|f| inside(&f.value, see)),
+        Kind::Library(_) | Kind::Goal(_) | Kind::Method(_) | Kind::Inspected(_) | Kind::Verify(_) => {}
+    }
+}
+
+fn inside<'t>(e: &'t Expr, see: &mut impl FnMut(&'t Expr)) {
+    see(e);
+    match &e.kind {
+        ExprKind::Call(call) => call.arguments.iter().for_each(|a| inside(&a.value, see)),
+        ExprKind::List(items) => items.iter().for_each(|item| inside(item, see)),
+        ExprKind::Group(a) | ExprKind::Negate(a) => inside(a, see),
+        ExprKind::Binary(_, a, b) | ExprKind::Else(a, b) => {
+            inside(a, see);
+            inside(b, see);
+        }
+        ExprKind::Quantity(_)
+        | ExprKind::Text(_)
+        | ExprKind::Colour(_)
+        | ExprKind::Direction(..)
+        | ExprKind::Reference(_) => {}
+    }
+}
