@@ -7,12 +7,20 @@ use super::expand::{Env, MOST_STEPS};
 use super::library::MOST_RULES;
 use crate::geometry::{Pose, frame_facing};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::lang::source::Span;
 use crate::lang::types::typed;
 use crate::primitives::printed_edge;
 use crate::rules::{Call, Expr, FeatureId, Library, Rule, Value};
 
-/// Where the markers of a layout are, in the object's frame.
-pub(super) type Poses = Vec<(FeatureId, Pose)>;
+/// A layout with its places, in the order of the features.
+pub(in crate::lang) struct Placed {
+    /// Its name.
+    pub name: String,
+    /// Its line.
+    pub span: Span,
+    /// The object's frame from each marker, and where that is written.
+    pub places: Vec<(FeatureId, Pose, Span)>,
+}
 
 impl<'a> Lowering<'a> {
     /// Adds a rule for every ordered pair of places, in the order of the features.
@@ -23,18 +31,21 @@ impl<'a> Lowering<'a> {
         env: &Env<'a>,
         out: &mut Library,
         whole: bool,
-    ) -> Option<Poses> {
+    ) -> Option<Placed> {
         let pairs = layout.places.len().saturating_mul(layout.places.len());
         self.steps = self.steps.saturating_add(pairs);
         if pairs + out.rules.len() > MOST_RULES || self.steps > MOST_STEPS {
             return self.too_far(env.call.unwrap_or(layout.span));
         }
-        let places: Vec<Option<(FeatureId, Pose)>> = layout.places.iter().map(|p| self.place_pose(p, env)).collect();
+        let places = layout.places.iter();
+        let places: Vec<Option<_>> = places
+            .map(|p| self.place_pose(p, env).map(|(feature, pose)| (feature, pose, p.span)))
+            .collect();
         let mut places = places.into_iter().collect::<Option<Vec<_>>>()?;
-        places.sort_by_key(|(feature, _)| *feature);
+        places.sort_by_key(|(feature, _, _)| *feature);
         let definite = self.definite_rules(layout, env, out, whole);
-        for (a, frame_from_a) in &places {
-            for (b, frame_from_b) in places.iter().filter(|(b, _)| a != b) {
+        for (a, frame_from_a, _) in &places {
+            for (b, frame_from_b, _) in places.iter().filter(|(b, _, _)| a != b) {
                 let Some((rule, edge)) = definite.get(b) else { continue };
                 let a_from_b = frame_from_a.inv_mul(frame_from_b);
                 out.rules.push(Rule {
@@ -49,7 +60,11 @@ impl<'a> Lowering<'a> {
                 });
             }
         }
-        Some(places)
+        Some(Placed {
+            name: layout.name.clone(),
+            span: layout.span,
+            places,
+        })
     }
 
     /// `frame_from_place`: the frame that the layout is written in is the object's.
