@@ -127,7 +127,7 @@ fn written(run: &Run, rule: &str, log: &Path) -> Written {
             })
         }
         _ => Written::Gone(format!(
-            "`{file}` has changed since the run (its compiled rules differ), so the rule's text is not shown"
+            "`{file}` has changed since the run, or vpl has: its compiled rules differ, so the rule's text is not shown"
         )),
     }
 }

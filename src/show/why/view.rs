@@ -104,6 +104,7 @@ fn chosen(past: &Past<'_>, before: &View) -> Option<Chosen> {
 pub(super) fn stop_reason(stop: &Stop) -> String {
     let holding = |name: &str| stop.because.iter().find(|c| c.name == name && c.holds);
     match stop.outcome.as_str() {
+        "goal" if stop.because.is_empty() => "the goal was reached".to_owned(),
         "goal" if stop.confident => match holding("confident").map(|c| (&c.of, &c.test)) {
             Some((Some(class), Test::Quantity { found: Some(p), .. })) => format!("certain of {class}, p = {p:.3}"),
             _ => "the class is certain".to_owned(),
