@@ -35,7 +35,7 @@ impl<'a> Lowering<'a> {
         let definite = self.definite_rules(layout, env, out, whole);
         for (a, frame_from_a) in &places {
             for (b, frame_from_b) in places.iter().filter(|(b, _)| a != b) {
-                let Some(rule) = definite.get(b) else { continue };
+                let Some((rule, edge)) = definite.get(b) else { continue };
                 let a_from_b = frame_from_a.inv_mul(frame_from_b);
                 out.rules.push(Rule {
                     id: format!("r{}", out.rules.len() + 1),
@@ -44,7 +44,7 @@ impl<'a> Lowering<'a> {
                     each: Vec::new(),
                     detect: rule.detect.clone(),
                     measure: rule.measure.clone(),
-                    predict: Some(rigid_marker(*a, a_from_b, rule)),
+                    predict: Some(rigid_marker(*a, a_from_b, *edge)),
                     place: self.place(layout.span),
                 });
             }
@@ -61,14 +61,15 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// The definite rule of each placed feature, whose detection the pairs repeat.
+    /// The definite rule of each placed feature, whose detection the pairs repeat, and
+    /// the edge of its print: a code is drawn once, not once a pair.
     fn definite_rules(
         &mut self,
         layout: &typed::Layout,
         env: &Env<'a>,
         library: &Library,
         whole: bool,
-    ) -> BTreeMap<FeatureId, Rule> {
+    ) -> BTreeMap<FeatureId, (Rule, Option<f64>)> {
         let mut out = BTreeMap::new();
         for place in &layout.places {
             let definite = library
@@ -76,7 +77,7 @@ impl<'a> Lowering<'a> {
                 .iter()
                 .find(|r| r.antecedents.is_empty() && r.consequent == place.feature);
             match definite {
-                Some(rule) => drop(out.insert(place.feature, rule.clone())),
+                Some(rule) => drop(out.insert(place.feature, (rule.clone(), printed_edge(&rule.detect).ok()))),
                 None if !whole => {}
                 None => {
                     let name = &library.feature(place.feature).name;
@@ -92,7 +93,7 @@ impl<'a> Lowering<'a> {
     }
 }
 
-fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, rule: &Rule) -> Call {
+fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, edge: Option<f64>) -> Call {
     let pose = Expr::Attribute {
         feature: antecedent,
         name: "pose".into(),
@@ -104,7 +105,7 @@ fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, rule: &
             Expr::Value(Value::Pose(antecedent_from_consequent)),
         ),
     ]);
-    if let Ok(edge) = printed_edge(&rule.detect) {
+    if let Some(edge) = edge {
         arguments.insert("size".to_owned(), Expr::Value(Value::Length(edge)));
     }
     Call {

@@ -93,7 +93,7 @@ const SCRAPS: &[&str] = &[
 ];
 
 /// A program with some pieces cut out and scraps put in.
-pub(super) fn mutated() -> impl Strategy<Value = String> {
+pub(in crate::lang) fn mutated() -> impl Strategy<Value = String> {
     let change = (any::<prop::sample::Index>(), 0_usize..12, prop::sample::select(SCRAPS));
     (prop::sample::select(PROGRAMS), prop::collection::vec(change, 0..4)).prop_map(|(program, changes)| {
         let mut chars: Vec<char> = program.chars().collect();
@@ -107,7 +107,7 @@ pub(super) fn mutated() -> impl Strategy<Value = String> {
 }
 
 /// Tokens in any order.
-pub(super) fn soup() -> impl Strategy<Value = String> {
+pub(in crate::lang) fn soup() -> impl Strategy<Value = String> {
     prop::collection::vec(prop::sample::select(SCRAPS), 0..40).prop_map(|scraps| format!("vpl 1\n{}", scraps.join(" ")))
 }
 

@@ -5,7 +5,7 @@
 //! becomes the tree ([`build`]), so that one run finds many mistakes.
 
 #[cfg(test)]
-mod agreement;
+pub(super) mod agreement;
 mod block;
 mod build;
 mod expected;

@@ -136,8 +136,8 @@ mod tests {
             "dihedral",
             Unit::Angle,
             1.2444,
-            std::f64::consts::FRAC_PI_2,
-            0.174_532_9,
+            90_f64.to_radians(),
+            10_f64.to_radians(),
         );
         assert_eq!(condition(&angle), "✗ dihedral 71.3° (80° to 100°)");
         let green = Condition::at_least("colour", Unit::Pixels, 412.0, 4.0).of(Some("#1ea032".into()));
