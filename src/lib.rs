@@ -18,6 +18,7 @@ pub mod map;
 pub mod plan;
 pub mod predict;
 pub mod primitives;
+pub mod recognition;
 pub mod rules;
 pub mod sense;
 pub mod show;

@@ -20,7 +20,7 @@ pub(crate) struct Compile {
 }
 
 pub(crate) fn run(options: &Compile) -> Result<Outcome, Failure> {
-    let compiled = lang::compile(&options.file, &Disk);
+    let compiled = lang::compile(&options.file, &Disk).without_notes();
     report(&render(&compiled.diagnostics, &compiled.sources, human()))?;
     report(&more([&compiled], human()))?;
     let Some(rules) = compiled.rules else {

@@ -95,6 +95,10 @@ impl Analysis {
             (lowered.rules, lowered.facts)
         });
         diagnostics::in_order(&mut diagnostics);
+        if diagnostics.iter().any(|d| d.severity == Severity::Error) {
+            // What a task costs is of interest once it is one.
+            diagnostics.retain(|d| d.severity != Severity::Note);
+        }
         let (rules, facts) = lowered.unzip();
         Expansion {
             rules,
@@ -121,6 +125,12 @@ impl Analysis {
 }
 
 impl Compilation {
+    /// The same without notes: what a verb that goes on with the program has to say.
+    pub fn without_notes(mut self) -> Self {
+        self.diagnostics.retain(|d| d.severity != Severity::Note);
+        self
+    }
+
     /// Whether some diagnostic is an error.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(|d| d.severity == Severity::Error)

@@ -114,3 +114,16 @@ fn add(values: &mut [i8], change: impl Fn(usize) -> i8, model: &LogOdds) {
         *value = value.saturating_add(change(i)).max(model.min).min(model.max);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rules::BYTES_PER_VOXEL;
+
+    #[test]
+    fn a_voxel_takes_the_memory_that_is_stated() {
+        let table = size_of::<u64>();
+        let bytes = (size_of::<Brick>() + table) as f64 / VOXELS as f64;
+        assert!((bytes - BYTES_PER_VOXEL).abs() < 0.15, "{bytes} bytes");
+    }
+}

@@ -108,6 +108,9 @@ fn modules(detect: &Call) -> f64 {
     code.map_or(QR_MODULES, |c| f64::from(c.size()))
 }
 
+/// Largest difference between the declared and the measured size of a code, as a share.
+pub const QR_SIZE_WITHIN: f64 = 0.25;
+
 /// Modules of quiet zone on each side of a code.
 const QUIET_ZONE: f64 = 4.0;
 

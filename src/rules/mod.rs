@@ -19,4 +19,6 @@ pub use expr::{BadArgument, Call, Colour, Expr, Value};
 pub use facts::{Expectation, Expected, Fact, Flag, Given, State};
 pub use library::{Class, Each, Feature, FeatureId, FeatureKind, Library, Presence, Rule};
 pub use scene::{Backdrop, Marker, Scene, SceneObject};
+#[cfg(test)]
+pub(crate) use task::BYTES_PER_VOXEL;
 pub use task::{Goal, Inspected, SensorModel, Space, Task, Thresholds};

@@ -69,7 +69,17 @@ pub struct Space {
     pub voxel: f64,
 }
 
+/// Bytes that the map takes for a measured voxel away from surfaces.
+pub(crate) const BYTES_PER_VOXEL: f64 = 1.5;
+
 impl Space {
+    /// Bytes of a map of which everything was measured, about: one and a half a voxel.
+    /// Only what was measured takes any.
+    pub fn map_bytes(&self) -> f64 {
+        let voxels: f64 = self.size.iter().map(|side| (side / self.voxel).ceil()).product();
+        voxels * BYTES_PER_VOXEL
+    }
+
     /// The box.
     pub fn bounds(&self) -> Bounds {
         Bounds::centred(self.centre, self.size)

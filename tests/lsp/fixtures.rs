@@ -116,7 +116,7 @@ fn answer(client: &mut Client, text: &str, what: &str, cursor: usize) -> String 
 fn whole(client: &mut Client, text: &str, what: &str) -> String {
     let document = json!({ "textDocument": { "uri": URI } });
     match what {
-        "symbols" => symbols(&client.request("textDocument/documentSymbol", document), text, 1),
+        "symbols" => symbols(&client.request("textDocument/documentSymbol", document), 1),
         "folds" => list(
             &client.request("textDocument/foldingRange", document),
             text,
@@ -270,13 +270,13 @@ fn edits(changes: &Value, text: &str) -> String {
     edits.collect::<Vec<_>>().join(", ")
 }
 
-fn symbols(all: &Value, text: &str, depth: usize) -> String {
+fn symbols(all: &Value, depth: usize) -> String {
     let all = all.as_array().into_iter().flatten();
     all.map(|symbol| {
         let (a, b) = (&symbol["range"]["start"]["line"], &symbol["range"]["end"]["line"]);
         let detail = symbol["detail"].as_str().map_or(String::new(), |d| format!(" : {d}"));
         let name = symbol["name"].as_str().unwrap();
-        let children = symbols(&symbol["children"], text, depth + 1);
+        let children = symbols(&symbol["children"], depth + 1);
         format!(
             "{}{name}{detail}, kind {}, lines {a}..{b}\n{children}",
             "  ".repeat(depth),

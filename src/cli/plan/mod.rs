@@ -103,7 +103,7 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
         .parse()
         .map_err(|error| Failure::Usage(format!("{error}")))?;
     outputs::check(options)?;
-    let compiled = lang::compile(&options.file, &Disk);
+    let compiled = lang::compile(&options.file, &Disk).without_notes();
     report(&render(&compiled.diagnostics, &compiled.sources, human()))?;
     report(&more([&compiled], human()))?;
     let Some(rules) = &compiled.rules else {

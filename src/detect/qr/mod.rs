@@ -17,7 +17,7 @@ use super::segment::Region;
 use crate::geometry::{Point, Pose};
 
 /// Largest difference between declared and measured size, as a share.
-const SIZE_WITHIN: f64 = 0.25;
+const SIZE_WITHIN: f64 = crate::primitives::QR_SIZE_WITHIN;
 /// Corners of one code read in two regions lie closer than this, in units of its size.
 const SAME: f64 = 0.25;
 

@@ -1,5 +1,7 @@
 //! Features of no use: that no class has, that every class has, that nothing detects.
 
+use std::collections::BTreeSet;
+
 use super::Analysed;
 use crate::lang::diagnostics::{Code, Diagnostic, Severity};
 use crate::rules::{FeatureId, Library};
@@ -7,6 +9,7 @@ use crate::rules::{FeatureId, Library};
 /// Features that no class has, or that no rule concludes.
 pub(super) fn check(library: &Library) -> Vec<Diagnostic> {
     let mut found = Vec::new();
+    let concluded: BTreeSet<FeatureId> = library.rules.iter().map(|r| r.consequent).collect();
     for id in library.feature_ids() {
         let feature = library.feature(id);
         if !library.classes.is_empty() && !library.classes.iter().any(|c| c.presence.has(id)) {
@@ -15,7 +18,7 @@ pub(super) fn check(library: &Library) -> Vec<Diagnostic> {
                     .help("list it in a class, or leave it out"),
             );
         }
-        if !library.rules.iter().any(|r| r.consequent == id) {
+        if !concluded.contains(&id) {
             found.push(
                 Diagnostic::new(
                     Code::W0404,

@@ -3,21 +3,30 @@
 //! They read the rule set, so they see what the planner will see: families and
 //! definitions expanded. Only libraries without errors are analysed.
 
+mod alike;
 mod backdrop;
+mod confidence;
+mod contradicting;
+mod cost;
+mod detectability;
 mod features;
 mod firing;
+mod frustum;
+mod layouts;
 mod markers;
-mod reach;
+mod objects;
 mod space;
 mod starts;
+mod superfluous;
 mod thresholds;
 mod twins;
 mod views;
 
 use super::diagnostics::Diagnostic;
-use super::lower::{Lowered, TaskSpans};
+use super::lower::{Lowered, Placed, TaskSpans};
 use crate::geometry::Pose;
 use crate::primitives;
+use crate::recognition::{Reach, Recognition};
 use crate::rules::{Library, Task};
 
 /// A task with what it needs.
@@ -26,6 +35,8 @@ struct Analysed<'a> {
     spans: &'a TaskSpans,
     /// Its library, where that is free of errors.
     library: Option<&'a Library>,
+    /// Its classes, where they are to be told apart.
+    recognition: Option<Recognition>,
     /// Its views; none where they or the space are not usable.
     views: Vec<Pose>,
 }
@@ -33,54 +44,81 @@ struct Analysed<'a> {
 /// Analyses everything that was lowered whole.
 pub(super) fn check(lowered: &Lowered) -> Vec<Diagnostic> {
     let mut found = Vec::new();
-    let whole = |name: &str| {
-        let libraries = lowered.rules.libraries.iter().zip(&lowered.whole);
-        libraries
-            .filter(|(l, whole)| l.name == name && **whole)
-            .map(|(l, _)| l)
-            .next()
-    };
-    for (library, _) in lowered
-        .rules
-        .libraries
-        .iter()
-        .zip(&lowered.whole)
-        .filter(|(_, whole)| **whole)
-    {
-        found.extend(features::check(library));
-        found.extend(firing::check(library));
-        found.extend(starts::check(library));
+    let libraries = whole(lowered);
+    for (library, layouts) in libraries.iter().filter_map(|(l, layouts)| Some((l.as_ref()?, layouts))) {
+        of_library(library, layouts, &mut found);
     }
-    let tasks: Vec<Analysed<'_>> = lowered
-        .rules
-        .tasks
-        .iter()
-        .zip(&lowered.task_spans)
+    let tasks = lowered.rules.tasks.iter().zip(&lowered.task_spans);
+    let tasks: Vec<Analysed<'_>> = tasks
         .map(|(task, spans)| {
-            let usable = space::check(task, spans, &mut found);
-            Analysed {
-                task,
-                spans,
-                library: whole(&task.library),
-                views: if usable {
-                    primitives::poses(&task.views, &task.space).unwrap_or_default()
-                } else {
-                    Vec::new()
-                },
-            }
+            let named = libraries
+                .iter()
+                .filter_map(|(l, _)| *l)
+                .find(|l| l.name == task.library);
+            analysed(task, spans, named, &mut found)
         })
         .collect();
     for task in &tasks {
-        found.extend(thresholds::check(task));
-        found.extend(views::check(task));
-        found.extend(twins::check(task));
-        found.extend(features::common(task));
-        found.extend(markers::check(task));
+        of_task(task, &mut found);
     }
-    for (scene, span) in lowered.rules.scenes.iter().zip(&lowered.backdrop_spans) {
-        found.extend(backdrop::check(scene, *span, &tasks));
+    for (k, scene) in lowered.rules.scenes.iter().enumerate() {
+        found.extend(backdrop::check(scene, lowered.backdrop_spans[k], &tasks));
+        found.extend(objects::space(scene, &tasks));
+        found.extend(objects::marks(scene, &lowered.marks[k], &libraries));
+        found.extend(objects::foreign(scene, &tasks));
     }
     found
+}
+
+/// Every library that is free of errors, with its layouts.
+fn whole(lowered: &Lowered) -> Vec<(Option<&Library>, &[Option<Placed>])> {
+    let libraries = lowered.rules.libraries.iter().zip(&lowered.whole);
+    let layouts = lowered.layouts.iter().map(Vec::as_slice);
+    libraries.map(|(l, whole)| whole.then_some(l)).zip(layouts).collect()
+}
+
+fn of_library(library: &Library, layouts: &[Option<Placed>], found: &mut Vec<Diagnostic>) {
+    let reach = Reach::new(library);
+    found.extend(features::check(library));
+    found.extend(firing::check(library, &reach));
+    found.extend(starts::check(library, &reach));
+    found.extend(superfluous::check(library));
+    found.extend(contradicting::check(library));
+    found.extend(detectability::check(library));
+    found.extend(alike::check(library));
+    found.extend(layouts::check(library, layouts));
+}
+
+fn analysed<'a>(
+    task: &'a Task,
+    spans: &'a TaskSpans,
+    library: Option<&'a Library>,
+    found: &mut Vec<Diagnostic>,
+) -> Analysed<'a> {
+    let usable = space::check(task, spans, found);
+    let confidence = task.thresholds.confidence;
+    let told = library.filter(|_| task.goal.confident && 0.0 < confidence && confidence <= 1.0);
+    Analysed {
+        task,
+        spans,
+        library,
+        recognition: told.and_then(|l| Recognition::of(l, confidence)),
+        views: if usable {
+            primitives::poses(&task.views, &task.space).unwrap_or_default()
+        } else {
+            Vec::new()
+        },
+    }
+}
+
+fn of_task(task: &Analysed<'_>, found: &mut Vec<Diagnostic>) {
+    found.extend(thresholds::check(task));
+    found.extend(views::check(task));
+    found.extend(twins::check(task));
+    found.extend(confidence::check(task));
+    found.extend(cost::check(task));
+    found.extend(features::common(task));
+    found.extend(markers::check(task));
 }
 
 /// `a, b and c` in backticks, cut short where it is long.
@@ -92,7 +130,7 @@ fn names<'a>(all: impl IntoIterator<Item = &'a str>) -> String {
 mod testing {
     //! Programs for the tests of each analysis.
 
-    use crate::lang::{Code, Memory, compile};
+    use crate::lang::{Code, Diagnostic, Memory, Severity, compile};
 
     /// A library of two markers and a task, with parts replaced.
     pub fn program(replaced: &[(&str, &str)]) -> String {
@@ -104,10 +142,26 @@ mod testing {
         text
     }
 
-    /// The codes that compiling a program gives, in the order of the text.
+    /// The codes that compiling that program gives, in the order of the text. W0403 is
+    /// among them, other notes are not.
     pub fn codes(replaced: &[(&str, &str)]) -> Vec<Code> {
-        let compiled = compile("main.vpl", &Memory::of("main.vpl", &program(replaced)));
-        compiled.diagnostics.iter().map(|d| d.code).collect()
+        codes_of(&program(replaced))
+    }
+
+    /// The same of any program.
+    pub fn codes_of(text: &str) -> Vec<Code> {
+        let all = compile("main.vpl", &Memory::of("main.vpl", text)).diagnostics;
+        all.iter()
+            .map(|d| d.code)
+            .filter(|c| c.severity() != Severity::Note)
+            .collect()
+    }
+
+    /// The notes that compiling a program gives.
+    pub fn notes_of(text: &str) -> Vec<Diagnostic> {
+        let mut all = compile("main.vpl", &Memory::of("main.vpl", text)).diagnostics;
+        all.retain(|d| d.severity == Severity::Note);
+        all
     }
 
     const PROGRAM: &str = r#"vpl 1

@@ -2,10 +2,12 @@
 
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::lower::TaskSpans;
-use crate::rules::Task;
+use crate::rules::{Space, Task};
 
 /// Most voxels of a map, whose indices are 32 bits wide.
 const MOST_VOXELS: f64 = 4_294_967_295.0;
+/// Memory of a map that is worth a warning, bytes.
+const MUCH: f64 = 2e9;
 
 /// Checks the space; whether views about it can be looked at.
 pub(super) fn check(task: &Task, spans: &TaskSpans, found: &mut Vec<Diagnostic>) -> bool {
@@ -32,14 +34,25 @@ pub(super) fn check(task: &Task, spans: &TaskSpans, found: &mut Vec<Diagnostic>)
         found.push(
             Diagnostic::new(Code::E0404, spans.voxel, message)
                 .label(format!("at most {MOST_VOXELS:.1e} voxels"))
-                .related(spans.space, "of this space")
+                .related(spans.space, format!("{} of memory for this space", gigabytes(space)))
                 .help(format!(
                     "make the voxel at least {}, or the space smaller",
                     metres(needed * 1.01)
                 )),
         );
+    } else if space.map_bytes() > MUCH {
+        let message = format!("a map of this space can grow to {} of memory", gigabytes(space));
+        found.push(
+            Diagnostic::new(Code::W0418, spans.voxel, message)
+                .related(spans.space, format!("{voxels:.1e} voxels"))
+                .help("make the voxel larger, or the space smaller"),
+        );
     }
     true
+}
+
+fn gigabytes(space: &Space) -> String {
+    format!("{} GB", round(space.map_bytes() / 1e9))
 }
 
 /// A length as a user writes it.
@@ -87,6 +100,7 @@ mod tests {
     #[test]
     fn fires_on_a_map_that_does_not_fit() {
         assert_eq!(codes(&[("voxel 20 mm", "voxel 0.5 mm")]), [Code::E0404]);
+        assert_eq!(codes(&[("voxel 20 mm", "voxel 0.7 mm")]), [Code::W0418]);
         assert_eq!(codes(&[("voxel 20 mm", "voxel 1 mm")]), []);
     }
 }

@@ -1,21 +1,27 @@
 //! Predictions that nothing starts: every chain must begin with a definite rule.
 
-use super::reach;
-use crate::lang::diagnostics::{Code, Diagnostic};
-use crate::rules::Library;
+use std::collections::BTreeMap;
 
-pub(super) fn check(library: &Library) -> Vec<Diagnostic> {
+use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::recognition::Reach;
+use crate::rules::{FeatureId, Library, Rule};
+
+pub(super) fn check(library: &Library, reach: &Reach<'_>) -> Vec<Diagnostic> {
     let help = "add a rule without antecedents, which finds a feature by itself: `rule -> name { … }`";
     if !library.features.is_empty() && !library.rules.iter().any(|r| r.antecedents.is_empty()) {
         let message = format!("nothing in library `{}` can be detected first", library.name);
         return vec![Diagnostic::new(Code::E0405, library.place, message).help(help)];
     }
-    let reached = reach::detectable(library);
+    let reached = reach.found(|_| true);
+    let mut first: BTreeMap<FeatureId, &Rule> = BTreeMap::new();
+    for rule in &library.rules {
+        first.entry(rule.consequent).or_insert(rule);
+    }
     library
         .feature_ids()
         .filter(|id| !reached[id.index()])
         .filter_map(|id| {
-            let rule = library.rules.iter().find(|r| r.consequent == id)?;
+            let rule = first.get(&id)?;
             let name = &library.feature(id).name;
             let message = format!("nothing starts the predictions that lead to `{name}`");
             let waits = rule.antecedents.iter().find(|a| !reached[a.index()])?;

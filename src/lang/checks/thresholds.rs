@@ -33,7 +33,32 @@ fn near(task: &Analysed<'_>, found: &mut Vec<Diagnostic>) {
                 .related(task.spans.voxel, "the voxel")
                 .help("points in a voxel would count as far from its centre: make `near` larger or the voxel smaller"),
         );
+    } else {
+        found.extend(wide(task));
     }
+}
+
+/// A `near` that makes one point of the space count for most of it.
+fn wide(task: &Analysed<'_>) -> Option<Diagnostic> {
+    let (near, across) = (task.task.thresholds.near, task.task.space.size.min());
+    let (code, message) = if near >= across {
+        (
+            Code::E0402,
+            format!("`near` is {}, as large as the space", metres(near)),
+        )
+    } else if near > across / 2.0 {
+        (
+            Code::W0414,
+            format!("`near` is {}, more than half of the space", metres(near)),
+        )
+    } else {
+        return None;
+    };
+    Some(
+        Diagnostic::new(code, task.spans.near, message)
+            .related(task.spans.space, format!("{} across", metres(across)))
+            .help("a point then counts for what is far from it: one or two voxels are usual"),
+    )
 }
 
 fn shares(task: &Analysed<'_>, found: &mut Vec<Diagnostic>) {
@@ -99,6 +124,13 @@ mod tests {
         assert_eq!(codes(&[("near: 30 mm", "near: 9 mm")]), [Code::E0402]);
         assert_eq!(codes(&[("near: 30 mm", "near: 0 mm")]), [Code::E0402]);
         assert_eq!(codes(&[("near: 30 mm", "near: 10 mm")]), []);
+    }
+
+    #[test]
+    fn fires_on_near_as_wide_as_the_space() {
+        assert_eq!(codes(&[("near: 30 mm", "near: 1 m")]), [Code::E0402]);
+        assert_eq!(codes(&[("near: 30 mm", "near: 501 mm")]), [Code::W0414]);
+        assert_eq!(codes(&[("near: 30 mm", "near: 500 mm")]), []);
     }
 
     #[test]

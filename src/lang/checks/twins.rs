@@ -2,35 +2,40 @@
 
 use std::collections::BTreeMap;
 
-use super::{Analysed, names, reach};
+use super::{Analysed, names};
 use crate::lang::diagnostics::{Code, Diagnostic};
+use crate::recognition::Reach;
 use crate::rules::{Class, Library};
 
 pub(super) fn check(task: &Analysed<'_>) -> Vec<Diagnostic> {
     let Some(library) = task.library.filter(|_| task.task.goal.confident) else {
         return Vec::new();
     };
-    let mut detectable = reach::detectable(library);
+    let class = |k: usize| &library.classes[k];
+    let pairs = pairs(library).into_iter();
+    pairs
+        .map(|(k, twin)| report(class(k), class(twin), library, task))
+        .collect()
+}
+
+/// Classes that nothing tells apart, each with the first that is like it.
+pub(super) fn pairs(library: &Library) -> Vec<(usize, usize)> {
+    let mut detectable = Reach::new(library).found(|_| true);
     if !detectable.contains(&true) {
         // Nothing can be detected at all, which is said elsewhere.
         detectable.fill(true);
     }
-    let mut first: BTreeMap<Vec<bool>, &Class> = BTreeMap::new();
-    let mut found = Vec::new();
-    for class in &library.classes {
-        let seen = class
-            .presence
-            .0
-            .iter()
-            .zip(&detectable)
-            .map(|(p, d)| *p && *d)
-            .collect();
+    let mut first: BTreeMap<Vec<bool>, usize> = BTreeMap::new();
+    let mut pairs = Vec::new();
+    for (k, class) in library.classes.iter().enumerate() {
+        let row = class.presence.0.iter().zip(&detectable);
+        let seen = row.map(|(p, d)| *p && *d).collect();
         match first.get(&seen) {
-            Some(twin) => found.push(report(class, twin, library, task)),
-            None => drop(first.insert(seen, class)),
+            Some(twin) => pairs.push((k, *twin)),
+            None => drop(first.insert(seen, k)),
         }
     }
-    found
+    pairs
 }
 
 fn report(class: &Class, twin: &Class, library: &Library, task: &Analysed<'_>) -> Diagnostic {

@@ -1,6 +1,7 @@
-//! Candidate views: outside the space, and near enough to measure it.
+//! Candidate views: outside the space, and with some of it in sight.
 
 use super::Analysed;
+use super::frustum::sees;
 use super::space::metres;
 use crate::geometry::{Bounds, Point, Pose};
 use crate::lang::diagnostics::{Code, Diagnostic};
@@ -23,18 +24,15 @@ pub(super) fn check(task: &Analysed<'_>) -> Vec<Diagnostic> {
         return found;
     }
     let range = task.task.camera.range;
-    let blind = |v: &&Pose| nearest(&bounds, v) > range.max || farthest(&bounds, v) < range.min;
+    let blind = |v: &&Pose| !sees(&task.task.camera, v, &bounds);
     let blind = task.views.iter().filter(blind).count();
     if blind > 0 {
         let code = if blind == count { Code::E0403 } else { Code::W0408 };
         let reads = format!("it reads depths from {} to {}", metres(range.min), metres(range.max));
         found.push(
-            Diagnostic::new(
-                code,
-                task.spans.views,
-                format!("{} out of the camera's range of the space", some(blind, count)),
-            )
-            .help(format!("{reads}: move the views, or take another camera")),
+            Diagnostic::new(code, task.spans.views, blind_message(blind, count))
+                .related(task.spans.space, "the space")
+                .help(format!("{reads}: move the views, or take another camera")),
         );
     }
     found
@@ -51,16 +49,16 @@ pub(super) fn nearest(bounds: &Bounds, view: &Pose) -> f64 {
     (p.coords - clamped).norm()
 }
 
-/// Distance from a view to the farthest corner of a box, metres.
-fn farthest(bounds: &Bounds, view: &Pose) -> f64 {
-    let p = eye(view);
-    let low = (p - bounds.min).abs();
-    let high = (p - bounds.max).abs();
-    low.sup(&high).norm()
+fn blind_message(n: usize, of: usize) -> String {
+    match n == of {
+        true => "the camera sees nothing of the space from any view".into(),
+        false => format!("the camera sees nothing of the space from {n} of {of} views"),
+    }
 }
 
 fn some(n: usize, of: usize) -> String {
     match (n, n == of) {
+        (1, true) => "the only view is".into(),
         (_, true) => "all views are".into(),
         (1, _) => format!("1 of {of} views is"),
         _ => format!("{n} of {of} views are"),
@@ -78,7 +76,6 @@ mod tests {
         let bounds = Bounds::centred(Point::origin(), Vector::repeat(2.0));
         let view = look_at(Point::new(4.0, 5.0, 0.0), Point::origin());
         assert!((nearest(&bounds, &view) - 5.0).abs() < 1e-12);
-        assert!((farthest(&bounds, &view) - 62_f64.sqrt()).abs() < 1e-12);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Lowering;
 use super::environments::Environments;
 use super::expand::Env;
-use super::layout::Poses;
+use super::layout::Placed;
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::source::Span;
 use crate::lang::types::typed::{self, FeatureUse};
@@ -16,8 +16,8 @@ use crate::rules::{Call, Class, Each, Feature, FeatureId, Library, Presence, Rul
 pub(super) const MOST_RULES: usize = 100_000;
 
 impl<'a> Lowering<'a> {
-    /// The library, and the poses of each layout's places.
-    pub(super) fn library(&mut self, library: &'a typed::Library) -> (Library, Vec<Option<Poses>>) {
+    /// The library, and each layout where its places are right.
+    pub(super) fn library(&mut self, library: &'a typed::Library) -> (Library, Vec<Option<Placed>>) {
         let before = self.found.len();
         let environments = self.environments(library);
         let mut out = Library {
@@ -33,14 +33,14 @@ impl<'a> Lowering<'a> {
         }
         // A rule that is wrong is not missing, too.
         let whole = library.whole && self.found.len() == before;
-        let mut poses = Vec::new();
+        let mut placed = Vec::new();
         for layout in &library.layouts {
             let env = environments.of(layout.environment);
             self.taken_over(&env, layout.span, |lowering| {
-                poses.push(lowering.layout(layout, &env, &mut out, whole));
+                placed.push(lowering.layout(layout, &env, &mut out, whole));
             });
         }
-        (out, poses)
+        (out, placed)
     }
 
     fn feature(&self, feature: &typed::Feature) -> Feature {

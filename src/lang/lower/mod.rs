@@ -15,6 +15,7 @@ mod ranges;
 mod scene;
 mod task;
 
+pub(super) use layout::Placed;
 pub(super) use task::TaskSpans;
 
 use super::diagnostics::Diagnostic;
@@ -28,12 +29,30 @@ pub(super) struct Lowered {
     pub rules: RuleSet,
     /// By library: whether all of it was lowered.
     pub whole: Vec<bool>,
+    /// By library: its layouts; `None` where a place is wrong.
+    pub layouts: Vec<Vec<Option<Placed>>>,
     /// By task.
     pub task_spans: Vec<TaskSpans>,
     /// By scene: its backdrop.
     pub backdrop_spans: Vec<Span>,
+    /// By scene: what its objects are marked as.
+    pub marks: Vec<Vec<Mark>>,
     /// The tests of the main file.
     pub facts: Vec<Fact>,
+}
+
+/// `marked LIBRARY.LAYOUT as CLASS`.
+pub(super) struct Mark {
+    /// Which of the scene's objects.
+    pub object: usize,
+    /// Which library.
+    pub library: usize,
+    /// Which of its layouts.
+    pub layout: usize,
+    /// Which of its classes.
+    pub class: usize,
+    /// Where it stands.
+    pub span: Span,
 }
 
 /// Expands a checked program.
@@ -43,6 +62,7 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         typed,
         sources,
         steps: 0,
+        depth: 0,
         found: Vec::new(),
     };
     let mut out = Lowered {
@@ -55,17 +75,19 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
             scenes: Vec::new(),
         },
         whole: Vec::new(),
+        layouts: Vec::new(),
         task_spans: Vec::new(),
         backdrop_spans: Vec::new(),
+        marks: Vec::new(),
         facts: Vec::new(),
     };
     let mut libraries = Vec::new();
     for library in &typed.libraries {
         let before = lowering.found.len();
-        let (lowered, poses) = lowering.library(library);
+        let (lowered, layouts) = lowering.library(library);
         libraries.push(LoweredLibrary {
             library: lowered,
-            poses,
+            layouts,
             whole: library.whole && lowering.found.len() == before,
         });
     }
@@ -76,12 +98,17 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         }
     }
     for scene in &typed.scenes {
-        let lowered = lowering.scene(scene, &libraries);
+        let (lowered, marks) = lowering.scene(scene, &libraries);
         out.rules.scenes.push(lowered);
+        out.marks.push(marks);
         out.backdrop_spans.push(scene.backdrop_span);
     }
     out.facts = lowering.facts(&typed.facts, &libraries);
-    (out.rules.libraries, out.whole) = libraries.into_iter().map(|l| (l.library, l.whole)).unzip();
+    for library in libraries {
+        out.rules.libraries.push(library.library);
+        out.layouts.push(library.layouts);
+        out.whole.push(library.whole);
+    }
     (out, lowering.found)
 }
 
@@ -89,7 +116,7 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
 struct LoweredLibrary {
     library: Library,
     /// By layout; `None` where a place is wrong.
-    poses: Vec<Option<layout::Poses>>,
+    layouts: Vec<Option<Placed>>,
     /// Whether all of it was lowered.
     whole: bool,
 }
@@ -99,6 +126,8 @@ struct Lowering<'a> {
     sources: &'a SourceMap,
     /// Expressions expanded so far.
     steps: usize,
+    /// How deep the expression that is being expanded nests.
+    depth: usize,
     found: Vec<Diagnostic>,
 }
 

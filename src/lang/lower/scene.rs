@@ -1,20 +1,37 @@
 //! Scenes: backdrops, objects and the markers that they carry.
 
 use super::expand::Env;
-use super::{LoweredLibrary, Lowering};
+use super::{LoweredLibrary, Lowering, Mark};
 use crate::geometry::{Pose, Rotation, Vector};
 use crate::lang::diagnostics::{Code, Diagnostic};
 use crate::lang::types::typed;
 use crate::rules::{Backdrop, Marker, Scene, SceneObject, Value};
 
 impl<'a> Lowering<'a> {
-    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[LoweredLibrary]) -> Scene {
-        Scene {
-            name: scene.name.clone(),
-            backdrop: scene.backdrop.as_ref().and_then(|b| self.backdrop(b)),
-            objects: scene.objects.iter().filter_map(|o| self.object(o, libraries)).collect(),
-            place: self.place(scene.span),
+    /// A scene, and what its objects are marked as.
+    pub(super) fn scene(&mut self, scene: &'a typed::Scene, libraries: &[LoweredLibrary]) -> (Scene, Vec<Mark>) {
+        let backdrop = scene.backdrop.as_ref().and_then(|b| self.backdrop(b));
+        let (mut objects, mut marks) = (Vec::new(), Vec::new());
+        for object in &scene.objects {
+            let Some(lowered) = self.object(object, libraries) else {
+                continue;
+            };
+            marks.extend(object.marked.as_ref().map(|marked| Mark {
+                object: objects.len(),
+                library: marked.library,
+                layout: marked.layout,
+                class: marked.class,
+                span: marked.span,
+            }));
+            objects.push(lowered);
         }
+        let scene = Scene {
+            name: scene.name.clone(),
+            backdrop,
+            objects,
+            place: self.place(scene.span),
+        };
+        (scene, marks)
     }
 
     fn backdrop(&mut self, backdrop: &'a typed::Expr) -> Option<Backdrop> {
@@ -48,10 +65,14 @@ impl<'a> Lowering<'a> {
     /// A print for every marker that the class has, where the layout puts it. What a
     /// library lacks is said where that library is whole otherwise.
     fn markers(&mut self, marked: &'a typed::Marked, libraries: &[LoweredLibrary]) -> Option<Vec<Marker>> {
-        let LoweredLibrary { library, poses, whole } = libraries.get(marked.library)?;
+        let LoweredLibrary {
+            library,
+            layouts,
+            whole,
+        } = libraries.get(marked.library)?;
         let class = library.classes.get(marked.class)?;
         let mut out = Vec::new();
-        for (feature, object_from_marker) in poses.get(marked.layout)?.as_ref()? {
+        for (feature, object_from_marker, _) in &layouts.get(marked.layout)?.as_ref()?.places {
             if !class.presence.has(*feature) {
                 continue;
             }

@@ -22,6 +22,7 @@ const USUAL_GAIN_FLOOR: u32 = 5;
 pub(in crate::lang) struct TaskSpans {
     /// The task's line.
     pub head: Span,
+    pub goal: Span,
     pub views: Span,
     pub voxel: Span,
     pub space: Span,
@@ -135,6 +136,7 @@ fn spans(task: &typed::Task) -> TaskSpans {
     let or_head = |e: &Option<typed::Expr>| e.as_ref().map_or(task.span, |e| e.span);
     TaskSpans {
         head: task.span,
+        goal: task.goal_span,
         views: task.views.span,
         voxel: task.voxel.span,
         space: task.shape.span,

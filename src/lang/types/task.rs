@@ -46,7 +46,7 @@ pub(in crate::lang) const SENSOR_MODEL: &[(&str, Type)] = &[
 struct Draft {
     seen: BTreeMap<&'static str, Span>,
     library: Option<String>,
-    goal: Option<Goal>,
+    goal: Option<(Goal, Span)>,
     values: BTreeMap<&'static str, Expr>,
     method: Option<String>,
     inspected: Option<Inspected>,
@@ -76,7 +76,11 @@ impl<'a> Checker<'a> {
     fn statement(&mut self, statement: &tree::TaskStatement, draft: &mut Draft, libraries: &[Library]) {
         match &statement.kind {
             Kind::Library(name) => draft.library = self.library_of(name, libraries),
-            Kind::Goal(words) => draft.goal = self.goal(words),
+            Kind::Goal(words) => {
+                let last = words.last().map_or(statement.span, |w| w.span);
+                let span = words.first().map_or(statement.span, |w| w.span.to(last));
+                draft.goal = self.goal(words).map(|goal| (goal, span));
+            }
             Kind::Camera(e) => self.value(draft, "camera", e, Type::Camera),
             Kind::Space(space) => {
                 let scope = Scope::of(self.program.main());
@@ -330,10 +334,12 @@ impl<'a> Checker<'a> {
 
 /// The task, where everything that it needs is there and right.
 fn assemble(task: &tree::Task, mut draft: Draft) -> Option<Task> {
+    let (goal, goal_span) = draft.goal?;
     Some(Task {
         name: task.name.text.clone(),
         library: draft.library?,
-        goal: draft.goal?,
+        goal,
+        goal_span,
         camera: draft.values.remove("camera")?,
         shape: draft.values.remove("space")?,
         at: draft.values.remove("at")?,

@@ -220,6 +220,7 @@ pub(in crate::lang) struct Task {
     pub name: String,
     pub library: String,
     pub goal: Goal,
+    pub goal_span: Span,
     pub camera: Expr,
     /// `cube` or `box`.
     pub shape: Expr,
