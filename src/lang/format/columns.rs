@@ -53,7 +53,7 @@ pub(super) fn shape(pieces: &[Piece], text: &str, block: &str) -> Option<(Shape,
         }
         "object" => Some((Shape::Object, vec![position("=")?])),
         _ if block.is_empty() || block == "library" || first == "for" => None,
-        _ => (pieces.len() > 1).then(|| (Shape::Setting, vec![1])),
+        _ => pieces.get(1)?.has_space().then(|| (Shape::Setting, vec![1])),
     }
 }
 

@@ -83,8 +83,9 @@ fn kept(text: &str, refused: bool) -> Formatted {
 fn is_newer(tokens: &[Token], text: &str) -> bool {
     let trivia = [TokenClass::Newline, TokenClass::Comment, TokenClass::Doc];
     let mut code = tokens.iter().filter(|t| !trivia.contains(&t.class));
-    let begins = code.next().is_some_and(|t| t.text(text) == "vpl");
-    let edition = code.next().filter(|_| begins);
+    let begins = code.next().is_some_and(|t| t.text(text).eq_ignore_ascii_case("vpl"));
+    // Behind a `:` that has no place there, perhaps.
+    let edition = code.take(2).find(|t| begins && t.class == TokenClass::Number);
     edition
         .and_then(|t| t.text(text).parse::<u64>().ok())
         .is_some_and(|e| e > u64::from(EDITION))

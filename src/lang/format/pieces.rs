@@ -314,7 +314,9 @@ impl Builder<'_> {
             group.body.pop();
         }
         let last = group.body.iter().rposition(Piece::is_code);
-        if let Some(last) = last.filter(|last| matches!(group.body[*last], Piece::Comma)) {
+        if let Some(last) = last.filter(|last| matches!(group.body[*last], Piece::Comma))
+            && group.kind != Kind::Block
+        {
             group.body.remove(last);
         }
         let statements = matches!(group.kind, Kind::Block | Kind::Fields | Kind::Imports);

@@ -120,6 +120,13 @@ fn what_cannot_be_read_stays() {
 }
 
 #[test]
+fn marks_of_other_languages() {
+    insta::assert_snapshot!(laid_out(
+        "VPL : 1\n# a comment\nlibrary  a-b: {\nfeature x=marker\nclasses by x {\n  tk1 1 ,0, yes ,\ntk22: 1, 0, }\n}\nlet a=f(\n1 , /* one */\n  2 ,\n)\nlet  b = (1mm,2mm) /* two */\nlet c=[1,2] mm\ntask t{\nlimit=20 views\ngoal :confident\n}\n"
+    ));
+}
+
+#[test]
 fn line_ends_tabs_and_marks_of_other_systems() {
     let text = "\u{feff}vpl 1\r\n\r\nlibrary l {\r\n\tfeature\ta : marker\t// a\r\n}\r";
     let code = "  feature a : marker";

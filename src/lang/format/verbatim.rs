@@ -20,7 +20,7 @@ pub(super) fn lines(text: &str, tokens: &[Token], bad: &[Range<usize>]) -> Optio
     };
     let unread = tokens
         .iter()
-        .filter(|t| t.class == TokenClass::Bad)
+        .filter(|t| t.class == TokenClass::Bad || is_foreign(t, text))
         .map(|t| t.start..t.end);
     let touched: Vec<Range<usize>> = bad
         .iter()
@@ -32,6 +32,11 @@ pub(super) fn lines(text: &str, tokens: &[Token], bad: &[Range<usize>]) -> Optio
     let ties = ties(text, good, &lines)?;
     let kept = close(lines.starts.len(), &touched, &ties);
     Some(ranges(text, &lines, &kept))
+}
+
+/// A comment of another language, behind which code may follow on the line.
+fn is_foreign(token: &Token, text: &str) -> bool {
+    token.class == TokenClass::Comment && token.text(text).starts_with("/*")
 }
 
 fn touched_by(bad: &[Range<usize>], token: &Token) -> bool {
@@ -55,10 +60,10 @@ impl Lines {
     }
 }
 
-/// First and last lines of what can only be laid out as a whole: brackets, and
-/// statements that go on behind an operator.
+/// First and last lines of what can only be laid out as a whole: brackets, the lines
+/// inside `( )` and `[ ]`, and statements that go on behind an operator.
 fn ties<'t>(text: &str, tokens: impl Iterator<Item = &'t Token>, lines: &Lines) -> Option<Vec<(usize, usize)>> {
-    let (mut open, mut out) = (Vec::new(), Vec::new());
+    let (mut open, mut out, mut parens) = (Vec::new(), Vec::new(), 0_usize);
     let mut last: Option<(Token, usize)> = None;
     for token in tokens {
         if matches!(token.class, TokenClass::Newline | TokenClass::Comment | TokenClass::Doc) {
@@ -68,14 +73,21 @@ fn ties<'t>(text: &str, tokens: impl Iterator<Item = &'t Token>, lines: &Lines) 
         let written = token.text(text);
         if let Some((before, from)) = last
             && from < line
-            && continues(&before, text)
+            && (parens > 0 || continues(&before, text))
         {
-            out.push((from, line));
+            out.extend((from..line).map(|at| (at, at + 1)));
         }
         match written {
             _ if token.class != TokenClass::Punctuation => {}
-            _ if is_open(written) => open.push(line),
-            ")" | "]" | "}" => out.push((open.pop()?, line)),
+            _ if is_open(written) => {
+                parens += usize::from(written != "{");
+                open.push((line, written));
+            }
+            ")" | "]" | "}" => {
+                let (from, opening) = open.pop()?;
+                parens -= usize::from(opening != "{");
+                out.push((from, line));
+            }
             _ => {}
         }
         last = Some((*token, line));
