@@ -312,6 +312,31 @@ fn expansion_is_bounded() {
         !found.is_empty() && found.iter().all(|c| *c == Code::E0312),
         "{found:?}"
     );
+    // What is not constant is not folded: an argument that is used twice doubles.
+    let doubled = format!("{}side.height else 1 mm{}", "twice(".repeat(24), ")".repeat(24));
+    let predict = "rectangle_on(on: bottom.base, dihedral: 90 deg, height: 100 mm)";
+    let found = codes(&faces("let twice(x: length) = x + x\n", predict, &doubled));
+    assert!(found.contains(&Code::E0312), "{found:?}");
+    let sum = " + 1 mm".repeat(250);
+    let deep: String = (1..190)
+        .map(|k| format!("let d{k}(x: length) = d{}(x){sum}\n", k - 1))
+        .collect();
+    let found = codes(&faces(
+        &format!("let d0(x: length) = x\n{deep}"),
+        predict,
+        "d189(side.height else 1 mm)",
+    ));
+    assert!(found.contains(&Code::E0312), "{found:?}");
+    let backwards: String = (1..190)
+        .rev()
+        .map(|k| format!("let d{k}(x: length) = d{}(x){sum}\n", k - 1))
+        .collect();
+    let found = codes(&faces(
+        &format!("let d0(x: length) = x\n{backwards}"),
+        predict,
+        "d189(side.height else 1 mm)",
+    ));
+    assert!(found.contains(&Code::E0312), "{found:?}");
     let lets: String = (1..3_000).map(|k| format!("let a{k}() = a{}()\n", k - 1)).collect();
     let found = codes(&format!("let a0() = 1 mm\n{lets}"));
     assert!(found.contains(&Code::E0312), "{found:?}");

@@ -18,6 +18,8 @@ mod outline;
 mod rename;
 mod semantic;
 mod signature;
+#[cfg(test)]
+mod tests;
 mod values;
 mod walk;
 

@@ -45,6 +45,8 @@ pub enum SymbolKind {
     Scene,
     /// An object.
     Object,
+    /// A test.
+    Test,
 }
 
 /// The declarations of the main file, in the order of the text.
@@ -77,7 +79,8 @@ impl Reading<'_> {
                     ..self.block(&scene.name, SymbolKind::Scene, scene.head)
                 }
             }
-            _ => return None,
+            Item::Test(test) => self.block(&test.name, SymbolKind::Test, test.head),
+            Item::Use(_) => return None,
         })
     }
 

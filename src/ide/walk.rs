@@ -1,6 +1,9 @@
 //! Every expression of a file, in the order of the text.
 
-use crate::lang::syntax::tree::{Expr, ExprKind, File, Item, Library, Parameter, TaskStatementKind as Kind};
+use crate::lang::syntax::tree::{
+    Evidence, ExpectationKind as Expected, Expr, ExprKind, File, Item, Library, Parameter, TaskStatementKind as Kind,
+    Test,
+};
 
 /// Calls `see` with every expression, the outer before the inner.
 pub(super) fn expressions<'t>(file: &'t File, see: &mut impl FnMut(&'t Expr)) {
@@ -22,7 +25,42 @@ pub(super) fn expressions<'t>(file: &'t File, see: &mut impl FnMut(&'t Expr)) {
                         .for_each(|e| inside(e, see));
                 }
             }
-            _ => {}
+            Item::Test(test) => in_test(test, see),
+            Item::Use(_) => {}
+        }
+    }
+}
+
+fn in_test<'t>(test: &'t Test, see: &mut impl FnMut(&'t Expr)) {
+    for supposed in &test.given {
+        match &supposed.what {
+            Evidence::State(_) => {}
+            Evidence::Face(face) => inside(face, see),
+            Evidence::Marker { at, facing } => {
+                inside(at, see);
+                inside(facing, see);
+            }
+        }
+    }
+    for expectation in &test.expected {
+        match &expectation.kind {
+            Expected::Class(_, a, within) | Expected::Weight(_, a, within) => {
+                inside(a, see);
+                within.iter().for_each(|e| inside(e, see));
+            }
+            Expected::Equal(a, b, within) => {
+                [a, b].into_iter().chain(within).for_each(|e| inside(e, see));
+            }
+            Expected::Count(a, b) => {
+                inside(a, see);
+                inside(b, see);
+            }
+            Expected::Rules(e) | Expected::Predicts(_, e) | Expected::Predicted(_, e) => inside(e, see),
+            Expected::Placed(placed) => {
+                let rest = placed.facing.iter().chain(&placed.within);
+                std::iter::once(&placed.at).chain(rest).for_each(|e| inside(e, see));
+            }
+            Expected::Classes(_) | Expected::Flag(..) | Expected::Next(_) | Expected::State(..) => {}
         }
     }
 }

@@ -10,6 +10,8 @@ use crate::lang::types::typed::{self, ExprKind, Families, TextPart};
 use crate::primitives::{Primitive, Type};
 use crate::rules::{Call, Expr, Value};
 
+/// Deepest expression, with the definitions that it uses inside of each other.
+const DEEPEST: usize = 300;
 /// Most expressions that a program expands to.
 pub(super) const MOST_STEPS: usize = 4_000_000;
 
@@ -45,13 +47,20 @@ impl<'a> Lowering<'a> {
     /// Expands an expression; `None` where a value in it is wrong, which was reported.
     pub(super) fn expand(&mut self, e: &'a typed::Expr, env: &Env<'a>) -> Option<Expanded> {
         self.steps += 1;
-        if self.steps > MOST_STEPS {
+        if self.steps > MOST_STEPS || self.depth > DEEPEST {
             return self.too_far(env.call.unwrap_or(e.span));
         }
+        self.depth += 1;
+        let expanded = self.expand_parts(e, env);
+        self.depth -= 1;
+        expanded
+    }
+
+    fn expand_parts(&mut self, e: &'a typed::Expr, env: &Env<'a>) -> Option<Expanded> {
         let expr = match &e.kind {
-            ExprKind::Parameter(name) => return env.parameters.get(name.as_str()).cloned(),
+            ExprKind::Parameter(name) => return self.argument(name, e.span, env),
             ExprKind::ParameterAttribute(name, attribute) => {
-                let of = env.parameters.get(name.as_str())?.clone();
+                let of = self.argument(name, e.span, env)?;
                 self.attribute_of(&of.expr, attribute, of.span)?
             }
             ExprKind::Value(value) => Expr::Value(value.clone()),
@@ -121,6 +130,18 @@ impl<'a> Lowering<'a> {
                 None
             }
         }
+    }
+
+    /// What a parameter stands for. Each use copies it, and counts as what it copies:
+    /// arguments that are used several times multiply.
+    fn argument(&mut self, name: &str, span: Span, env: &Env<'a>) -> Option<Expanded> {
+        let given = env.parameters.get(name)?;
+        let (size, depth) = extent(&given.expr);
+        self.steps = self.steps.saturating_add(size);
+        if self.steps > MOST_STEPS || depth > DEEPEST {
+            return self.too_far(env.call.unwrap_or(span));
+        }
+        Some(given.clone())
     }
 
     /// An attribute of what a parameter stands for: a feature, or one in place of another.
@@ -248,6 +269,21 @@ impl<'a> Lowering<'a> {
         }
         None
     }
+}
+
+/// How many expressions one is made of, and how deep they nest.
+fn extent(expr: &Expr) -> (usize, usize) {
+    let parts: Vec<&Expr> = match expr {
+        Expr::Value(_) | Expr::Variable(_) | Expr::Attribute { .. } => Vec::new(),
+        Expr::Else(a, b) | Expr::Add(a, b) | Expr::Subtract(a, b) | Expr::Multiply(a, b) | Expr::Divide(a, b) => {
+            vec![a, b]
+        }
+        Expr::List(items) => items.iter().collect(),
+        Expr::Call(call) => call.arguments.values().collect(),
+    };
+    let parts = parts.into_iter().map(extent);
+    let (size, depth) = parts.fold((0, 0), |(size, deepest), (n, depth)| (size + n, deepest.max(depth)));
+    (size + 1, depth + 1)
 }
 
 /// Longest text, bytes.

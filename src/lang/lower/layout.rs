@@ -44,13 +44,9 @@ impl<'a> Lowering<'a> {
         let mut places = places.into_iter().collect::<Option<Vec<_>>>()?;
         places.sort_by_key(|(feature, _, _)| *feature);
         let definite = self.definite_rules(layout, env, out, whole);
-        let edges: BTreeMap<FeatureId, f64> = definite
-            .iter()
-            .filter_map(|(feature, rule)| Some((*feature, printed_edge(&rule.detect).ok()?)))
-            .collect();
         for (a, frame_from_a, _) in &places {
             for (b, frame_from_b, _) in places.iter().filter(|(b, _, _)| a != b) {
-                let Some(rule) = definite.get(b) else { continue };
+                let Some((rule, edge)) = definite.get(b) else { continue };
                 let a_from_b = frame_from_a.inv_mul(frame_from_b);
                 out.rules.push(Rule {
                     id: format!("r{}", out.rules.len() + 1),
@@ -59,7 +55,7 @@ impl<'a> Lowering<'a> {
                     each: Vec::new(),
                     detect: rule.detect.clone(),
                     measure: rule.measure.clone(),
-                    predict: Some(rigid_marker(*a, a_from_b, edges.get(b))),
+                    predict: Some(rigid_marker(*a, a_from_b, *edge)),
                     place: self.place(layout.span),
                 });
             }
@@ -80,14 +76,15 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    /// The definite rule of each placed feature, whose detection the pairs repeat.
+    /// The definite rule of each placed feature, whose detection the pairs repeat, and
+    /// the edge of its print: a code is drawn once, not once a pair.
     fn definite_rules(
         &mut self,
         layout: &typed::Layout,
         env: &Env<'a>,
         library: &Library,
         whole: bool,
-    ) -> BTreeMap<FeatureId, Rule> {
+    ) -> BTreeMap<FeatureId, (Rule, Option<f64>)> {
         let mut out = BTreeMap::new();
         for place in &layout.places {
             let definite = library
@@ -95,7 +92,7 @@ impl<'a> Lowering<'a> {
                 .iter()
                 .find(|r| r.antecedents.is_empty() && r.consequent == place.feature);
             match definite {
-                Some(rule) => drop(out.insert(place.feature, rule.clone())),
+                Some(rule) => drop(out.insert(place.feature, (rule.clone(), printed_edge(&rule.detect).ok()))),
                 None if !whole => {}
                 None => {
                     let name = &library.feature(place.feature).name;
@@ -111,7 +108,7 @@ impl<'a> Lowering<'a> {
     }
 }
 
-fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, edge: Option<&f64>) -> Call {
+fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, edge: Option<f64>) -> Call {
     let pose = Expr::Attribute {
         feature: antecedent,
         name: "pose".into(),
@@ -124,7 +121,7 @@ fn rigid_marker(antecedent: FeatureId, antecedent_from_consequent: Pose, edge: O
         ),
     ]);
     if let Some(edge) = edge {
-        arguments.insert("size".to_owned(), Expr::Value(Value::Length(*edge)));
+        arguments.insert("size".to_owned(), Expr::Value(Value::Length(edge)));
     }
     Call {
         primitive: "rigid_marker".into(),

@@ -62,6 +62,7 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         typed,
         sources,
         steps: 0,
+        depth: 0,
         found: Vec::new(),
     };
     let mut out = Lowered {
@@ -125,6 +126,8 @@ struct Lowering<'a> {
     sources: &'a SourceMap,
     /// Expressions expanded so far.
     steps: usize,
+    /// How deep the expression that is being expanded nests.
+    depth: usize,
     found: Vec<Diagnostic>,
 }
 

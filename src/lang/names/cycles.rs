@@ -13,14 +13,16 @@ const DEEPEST: usize = 200;
 pub(super) fn mark(program: &mut Program) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     let needs = (0..program.definitions.len()).map(|k| definition_needs(program, DefinitionId(k)));
-    for (k, closing) in broken(needs.collect()) {
+    let (definitions, order) = broken(needs.collect());
+    program.order = order.into_iter().map(DefinitionId).collect();
+    for (k, closing) in definitions {
         let definition = &mut program.definitions[k];
         definition.circular = true;
         let help = "a definition may use others, never itself: there is no recursion";
         found.push(report("definition", "need", &definition.tree.name, closing).help(help));
     }
     let needs = (0..program.libraries.len()).map(|k| library_needs(program, LibraryId(k)));
-    for (k, closing) in broken(needs.collect()) {
+    for (k, closing) in broken(needs.collect()).0 {
         program.libraries[k].circular = true;
         let Some((library, _)) = program.library(LibraryId(k)) else {
             continue;
@@ -49,18 +51,20 @@ fn report(kind: &str, verb: &str, name: &Name, closing: Closing) -> Diagnostic {
     .related(closing, "the circle closes here")
 }
 
-/// What needs itself, and what needs too long a chain.
-fn broken(needs: Vec<Needs>) -> Vec<(usize, Closing)> {
+/// What needs itself or too long a chain, and an order in which all come after what
+/// they need.
+fn broken(needs: Vec<Needs>) -> (Vec<(usize, Closing)>, Vec<usize>) {
     let mut walk = Walk {
         marks: vec![Mark::New; needs.len()],
         found: Vec::new(),
+        order: Vec::new(),
     };
     for k in 0..needs.len() {
         walk.visit(&needs, k, None, 0);
     }
     walk.found.sort_unstable_by_key(|(k, closing)| (*k, closing.is_none()));
     walk.found.dedup_by_key(|(k, _)| *k);
-    walk.found
+    (walk.found, walk.order)
 }
 
 /// What one needs, and where it says so.
@@ -77,6 +81,8 @@ enum Mark {
 struct Walk {
     marks: Vec<Mark>,
     found: Vec<(usize, Closing)>,
+    /// Those that are done.
+    order: Vec<usize>,
 }
 
 impl Walk {
@@ -98,6 +104,7 @@ impl Walk {
             self.broken(k, None)
         };
         self.marks[k] = Mark::Done(length);
+        self.order.push(k);
         length
     }
 

@@ -41,6 +41,7 @@ pub(super) fn resolve(loaded: Vec<Loaded>, sources: &SourceMap) -> (Program, Vec
     let program = Program {
         modules,
         definitions: all.definitions,
+        order: Vec::new(),
         libraries: all.libraries,
     };
     (program, found)

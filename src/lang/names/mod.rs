@@ -23,6 +23,8 @@ pub(super) struct Program {
     pub modules: Vec<Module>,
     /// Every `let` of every module.
     pub definitions: Vec<Definition>,
+    /// The definitions, each after those that it needs.
+    pub order: Vec<DefinitionId>,
     /// Every library of every module.
     pub libraries: Vec<LibraryItem>,
 }

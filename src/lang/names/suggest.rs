@@ -111,29 +111,35 @@ pub(in crate::lang) fn one_of<'a>(words: impl IntoIterator<Item = &'a str>) -> S
     }
 }
 
-/// Distance with insertions, deletions, substitutions and swaps of neighbours;
-/// more than `most` where the lengths alone say so.
+/// Distance with insertions, deletions, substitutions and swaps of neighbours; more
+/// than `most` as soon as it is known to be.
 fn distance(a: &str, b: &str, most: usize) -> usize {
+    if a.len().abs_diff(b.len()) > 4 * most {
+        return most + 1;
+    }
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().take(64).collect(), b.chars().take(64).collect());
     if a.len().abs_diff(b.len()) > most {
         return most + 1;
     }
-    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
+    let mut before: Vec<usize> = Vec::new();
+    let mut last: Vec<usize> = (0..=b.len()).collect();
     for i in 1..=a.len() {
         let mut row = vec![i];
         for j in 1..=b.len() {
             let change = usize::from(a[i - 1] != b[j - 1]);
-            let mut best = (rows[i - 1][j] + 1)
-                .min(row[j - 1] + 1)
-                .min(rows[i - 1][j - 1] + change);
+            let mut best = (last[j] + 1).min(row[j - 1] + 1).min(last[j - 1] + change);
             if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                best = best.min(rows[i - 2][j - 2] + 1);
+                best = best.min(before[j - 2] + 1);
             }
             row.push(best);
         }
-        rows.push(row);
+        // A swap reaches back two rows: both must be beyond hope.
+        if row.iter().chain(&last).all(|d| *d > most) {
+            return most + 1;
+        }
+        before = std::mem::replace(&mut last, row);
     }
-    rows[a.len()][b.len()]
+    last[b.len()]
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use super::scope::Scope;
 use super::stated::{Fact, Given, Place};
 use super::typed::Library;
 use crate::lang::diagnostics::{Code, Diagnostic};
-use crate::lang::index::Kind;
+use crate::lang::index::{Entity, Kind};
 use crate::lang::names::suggest::closest;
 use crate::lang::source::Span;
 use crate::lang::syntax::tree;
@@ -192,8 +192,16 @@ impl<'a> Checker<'a> {
     }
 
     /// One of some words with what it means.
-    pub(super) fn state_of<T: Clone>(&mut self, word: &tree::Name, what: &str, words: &[(&str, T)]) -> Option<T> {
+    pub(super) fn state_of<T: Clone>(
+        &mut self,
+        word: &tree::Name,
+        what: &str,
+        words: &[(&'static str, T)],
+    ) -> Option<T> {
         let known = words.iter().find(|(name, _)| *name == word.text);
+        if let Some((name, _)) = known {
+            self.names.uses(word.span, Entity::Word(name));
+        }
         if known.is_none() {
             let names: Vec<&str> = words.iter().map(|(name, _)| *name).collect();
             let habit = HABITS

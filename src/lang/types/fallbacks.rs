@@ -51,6 +51,14 @@ impl Checker<'_> {
         }
     }
 
+    /// Looks at the parameters of a definition, after those that it needs: no chain of
+    /// definitions is then followed all at once.
+    pub(super) fn coverage(&mut self, id: DefinitionId) {
+        for k in 0..self.signatures[id.0].len() {
+            self.covers(id, k);
+        }
+    }
+
     /// Whether every use of a definition's parameter stands before an `else`.
     fn covers(&mut self, id: DefinitionId, parameter: usize) -> bool {
         if let Some(known) = self.known_coverage.get(&(id, parameter)) {

@@ -58,8 +58,9 @@ pub(super) fn check(program: &Program) -> (typed::Program, Index, Vec<Diagnostic
         found: Vec::new(),
     };
     checker.all_signatures();
-    for k in 0..program.definitions.len() {
-        checker.definition(DefinitionId(k));
+    for id in &program.order {
+        checker.definition(*id);
+        checker.coverage(*id);
     }
     for k in 0..program.libraries.len() {
         checker.library(LibraryId(k));

@@ -77,7 +77,7 @@ impl<'a> Checker<'a> {
             let values = declared(family);
             self.names.local(Kind::Index, name, None);
             match out.iter_mut().find(|(n, _)| *n == name.text) {
-                Some((_, known)) => known.retain(|v| values.contains(v)),
+                Some((_, known)) => known.retain(|v| values.binary_search(v).is_ok()),
                 None => out.push((name.text.clone(), values)),
             }
         }
