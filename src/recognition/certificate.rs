@@ -90,11 +90,11 @@ impl Search<'_> {
         let mut left = self.recognition.all();
         let mut chosen = Vec::new();
         while !self.is_done(&left) {
-            budget.take(self.looks.len() * (left.len() + 1) + 1)?;
+            budget.take(self.looks.len() * self.recognition.work(&left) + 1)?;
             let best = self
                 .looks
                 .iter()
-                .map(|(f, excluded)| (self.recognition.mass(&left.and(excluded)), *f, excluded))
+                .map(|(f, excluded)| (self.recognition.common_mass(&left, excluded), *f, excluded))
                 .reduce(|best, next| if next.0 > best.0 { next } else { best })?;
             if best.0 <= 0.0 {
                 return None;
@@ -111,7 +111,7 @@ impl Search<'_> {
         if self.is_done(&left) {
             return Some(Some(Vec::new()));
         }
-        budget.take(self.looks.len() * (left.len() + 1) + 1)?;
+        budget.take(self.looks.len() * self.recognition.work(&left) + 1)?;
         if k == 0 || self.is_hopeless(&left, k) || !self.bears(&kept) {
             return Some(None);
         }
@@ -132,7 +132,7 @@ impl Search<'_> {
     /// Whether `k` looks, each as good as the best one, exclude too little.
     fn is_hopeless(&self, left: &ClassSet, k: usize) -> bool {
         let r = self.recognition;
-        let best = self.looks.iter().map(|(_, excluded)| r.mass(&left.and(excluded)));
+        let best = self.looks.iter().map(|(_, excluded)| r.common_mass(left, excluded));
         let best = best.fold(0.0, f64::max);
         let least = r.mass(left) - k as f64 * best;
         // With a margin, for sums are rounded.

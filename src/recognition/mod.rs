@@ -47,6 +47,8 @@ impl Budget {
 pub struct Recognition {
     priors: Vec<f64>,
     confidence: f64,
+    /// The prior of every class, where all are alike.
+    uniform: Option<f64>,
     /// By feature: the classes that have it.
     has: Vec<ClassSet>,
     /// By feature: the classes on whose objects looking for it comes to an end.
@@ -86,9 +88,11 @@ impl Recognition {
                 }
             }
         }
+        let uniform = priors.first().copied().filter(|p| priors.iter().all(|q| q == p));
         Self {
             priors,
             confidence,
+            uniform,
             has,
             settled,
         }
@@ -143,6 +147,22 @@ impl Recognition {
                 self.has[k].clone()
             }
         })
+    }
+
+    /// The mass of the classes that are in both, up to rounding.
+    fn common_mass(&self, a: &ClassSet, b: &ClassSet) -> f64 {
+        match self.uniform {
+            Some(prior) => a.in_common(b) as f64 * prior,
+            None => self.mass(&a.and(b)),
+        }
+    }
+
+    /// Steps that a mass of some of these classes takes.
+    fn work(&self, classes: &ClassSet) -> usize {
+        match self.uniform {
+            Some(_) => self.classes().div_ceil(64) + 1,
+            None => classes.len() + 1,
+        }
     }
 
     fn mass(&self, classes: &ClassSet) -> f64 {

@@ -37,6 +37,12 @@ impl ClassSet {
         self.merged(other, |a, b| a & !b)
     }
 
+    /// How many are in both.
+    pub fn in_common(&self, other: &Self) -> usize {
+        let both = self.0.iter().zip(&other.0).map(|(a, b)| a & b);
+        both.map(|word| word.count_ones() as usize).sum()
+    }
+
     /// Whether all of them are in the other.
     pub fn is_within(&self, other: &Self) -> bool {
         self.0.iter().zip(&other.0).all(|(a, b)| a & !b == 0)

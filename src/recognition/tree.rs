@@ -96,7 +96,7 @@ impl Recognition {
 }
 
 /// Steps that the search for some tree may take.
-const GREEDY: u64 = 5_000_000;
+const GREEDY: u64 = 3_000_000;
 
 /// x · log₂ x, which is 0 at 0.
 fn times_log(x: f64) -> f64 {
@@ -165,7 +165,8 @@ impl Trees<'_, '_> {
                 continue;
             }
             self.budget.take((self.looks.len() + 1) * (left.len() + 1))?;
-            let uneven = |with: &ClassSet| (r.mass(with) - r.mass(&left.without(with))).abs();
+            let mass = r.mass(&left);
+            let uneven = |with: &ClassSet| (2.0 * r.common_mass(with, &left) - mass).abs();
             let splits = self.looks.iter().filter(|(_, settled)| left.is_within(settled));
             let splits = splits
                 .map(|(has, _)| left.and(has))

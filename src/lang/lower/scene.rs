@@ -87,8 +87,11 @@ impl<'a> Lowering<'a> {
                 }
                 let name = &library.feature(*feature).name;
                 let message = format!("no rule says what is printed on `{name}`");
-                let help = "detect it with `qr(text: …, size: …)`";
-                self.report(Diagnostic::new(Code::E0502, marked.span, message).help(help));
+                // Once, however many objects bear it.
+                if !self.found.iter().any(|d| d.code == Code::E0502 && d.message == message) {
+                    let help = "detect it with `qr(text: …, size: …)`";
+                    self.report(Diagnostic::new(Code::E0502, marked.span, message).help(help));
+                }
                 return None;
             };
             out.push(Marker {
