@@ -12,6 +12,7 @@ pub fn check(text: &str) -> Option<String> {
         statements_of_a_scene,
         items,
         alone,
+        with_imports,
         after_the_tanks,
         after_the_solids,
     ] {
@@ -128,6 +129,10 @@ fn items(text: &str) -> String {
 
 fn alone(text: &str) -> String {
     format!("vpl 1\n{text}")
+}
+
+fn with_imports(text: &str) -> String {
+    format!("{USES}{text}")
 }
 
 fn after_the_tanks(text: &str) -> String {
