@@ -74,7 +74,7 @@ fn views_inside_the_object_are_refused() {
 fn an_object_outside_the_space_is_refused() {
     let text = fs::read_to_string(SOLIDS).unwrap();
     let text = text.replace("[10 mm, -15 mm, 308 mm]", "[10 m, -15 m, 308 m]");
-    plan_of(&text, &folder("outside"), &[]).expect(1, &["E0504", "`m1` stands outside the space"]);
+    plan_of(&text, &folder("outside"), &[]).expect(1, &["E0505", "`m1` stands outside the space"]);
 }
 
 /// ξ of 20 voxels: slow would be for ever.

@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-6;
 /// Most objects that are pointed at one by one.
 const MOST_SHOWN: usize = 4;
 
-/// Objects outside of the space of every task, and ones that reach out of each.
+/// Objects outside the space of every task, and ones that reach out of each.
 pub(super) fn space(scene: &Scene, tasks: &[Analysed<'_>]) -> Vec<Diagnostic> {
     let (mut outside, mut out) = (Vec::new(), Vec::new());
     for object in &scene.objects {
@@ -77,8 +77,8 @@ fn report(code: Code, objects: &[(&SceneObject, f64)], tasks: &[Analysed<'_>]) -
     let all = names(objects.iter().map(|(o, _)| o.name.as_str()));
     let one = objects.len() == 1;
     let (message, help) = match (code, one) {
-        (Code::E0505, true) => (format!("{all} stands outside of the space"), "move it into the space"),
-        (Code::E0505, false) => (format!("{all} stand outside of the space"), "move them into the space"),
+        (Code::E0505, true) => (format!("{all} stands outside the space"), "move it into the space"),
+        (Code::E0505, false) => (format!("{all} stand outside the space"), "move them into the space"),
         (_, true) => (
             format!("{all} reaches out of the space"),
             "move it, or make the space larger",
