@@ -177,7 +177,14 @@ module.exports = grammar({
         optional($.marked),
       ),
     turned: ($) => seq('turned', $._expression),
-    marked: ($) => seq('marked', field('library', $.name), '.', field('layout', $.name), 'as', field('class', $.name)),
+    // The layout and the class may be missing: the compiler reads on and asks for them.
+    marked: ($) =>
+      seq(
+        'marked',
+        field('library', $.name),
+        optional(seq('.', field('layout', $.name))),
+        optional(seq('as', field('class', $.name))),
+      ),
 
     // ---- Facts --------------------------------------------------------------
 
@@ -187,22 +194,22 @@ module.exports = grammar({
 
     // given code[7] detected, code[4] absent · given bottom = polygon([…])
     given: ($) => seq('given', $.supposed, repeat(seq(',', $.supposed))),
-    supposed: ($) => seq($.feature_name, choice($.measured, $.located, $.name)),
+    supposed: ($) => seq($.feature_name, choice($.measured, $.located, field('state', $.name))),
     measured: ($) => seq('=', $._expression),
     located: ($) => seq('at', $._expression, 'facing', $._expression),
 
     expect: ($) => seq('expect', $._expected),
     _expected: ($) =>
       choice(
-        seq('classes', $.name, repeat(seq(',', $.name))),
-        seq('class', $.name, $._expression, optional($.within)),
+        seq('classes', field('class', $.name), repeat(seq(',', field('class', $.name)))),
+        seq('class', field('class', $.name), $._expression, optional($.within)),
         seq(optional('not'), choice('confident', 'contradicted')),
         seq('next', $.feature_name, repeat(seq(',', $.feature_name))),
         seq($._rule_head, 'predicts', $._expression),
         seq('rules', $._expression),
         seq($._expression, '=', $._expression, optional($.within)),
         seq($._expression, 'count', $._expression),
-        seq($.feature_name, choice($.weighs, $.predicted, $.placed, $.name)),
+        seq($.feature_name, choice($.weighs, $.predicted, $.placed, field('state', $.name))),
       ),
     weighs: ($) => seq('weight', $._expression, optional($.within)),
     predicted: ($) => seq('predicted', $._expression),

@@ -98,6 +98,7 @@
 (library_of (name) @type.definition)
 (row name: (name) @type.definition)
 (marked (name) @type.definition)
+(expect class: (name) @type.definition)
 
 (call function: (name) @function.call)
 (argument name: (name) @variable.parameter)
@@ -111,8 +112,8 @@
 (method (name) @constant.builtin)
 (inspected (name) @constant.builtin)
 (verify (name) @constant.builtin)
-(supposed (name) @constant.builtin)
-(expect (name) @constant.builtin)
+(supposed state: (name) @keyword)
+(expect state: (name) @keyword)
 
 ; What could not be read is at least words.
 (ERROR (name) @variable)

@@ -58,8 +58,11 @@ fn colours<'q>(query: &'q Query, tree: &Tree, text: &str) -> Vec<Option<&'q str>
     let mut found = cursor.captures(query, tree.root_node(), text.as_bytes());
     while let Some((matched, at)) = found.next() {
         let capture = matched.captures()[*at];
-        let name = query.capture_names()[capture.index as usize];
-        captures.push((capture.node.byte_range(), name));
+        let range = capture.node.byte_range();
+        // What the parser supposed to be there has no bytes to colour.
+        if !range.is_empty() {
+            captures.push((range, query.capture_names()[capture.index as usize]));
+        }
     }
     captures.sort_by_key(|(range, _)| (range.start, std::cmp::Reverse(range.end)));
     for pair in captures.windows(2) {
