@@ -9,7 +9,7 @@ use vpl::lang::{Memory, TokenClass, compile, format, tokens};
 /// comma that only trails may come and go.
 fn words(text: &str) -> Vec<&str> {
     let kept = tokens(text).into_iter().filter(|t| t.class != TokenClass::Newline);
-    kept.map(|t| text[t.start..t.end].trim()).filter(|word| *word != ",").collect()
+    kept.map(|t| text[t.start..t.end].trim()).filter(|word| ![",", ";"].contains(word)).collect()
 }
 
 fuzz_target!(|text: &str| {

@@ -9,6 +9,7 @@ use std::io::Cursor;
 
 use libfuzzer_sys::fuzz_target;
 use serde_json::json;
+use vpl::lang::Memory;
 
 fn framed(body: &str) -> String {
     format!("Content-Length: {}\r\n\r\n{body}", body.len())
@@ -48,6 +49,6 @@ fuzz_target!(|text: &str| {
         }
     }
     let mut output = Vec::new();
-    let _ = vpl::lsp::serve(Cursor::new(input.into_bytes()), &mut output);
+    let _ = vpl::lsp::serve(Cursor::new(input.into_bytes()), &mut output, Box::new(Memory::default()));
     assert!(!output.is_empty(), "`initialize` is answered");
 });

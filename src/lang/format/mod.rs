@@ -47,8 +47,16 @@ pub struct Formatted {
 /// assert_eq!(formatted.text, "vpl 1\n\nlet a = f(1 mm, 2)\n");
 /// ```
 pub fn format(text: &str) -> Formatted {
-    let reading = syntax::read(text);
-    let verbatim = (reading.parsed && !is_newer(&reading.tokens, text))
+    let mut reading = syntax::read(text);
+    let header = header(&reading.tokens, text);
+    // Space would make an edition line of `vpl1`, which is none.
+    if let [word, edition, ..] = header[..]
+        && edition.class == TokenClass::Number
+        && word.end == edition.start
+    {
+        reading.bad.insert(0, word.start..edition.end);
+    }
+    let verbatim = (reading.parsed && !is_newer(&header, text))
         .then(|| verbatim::lines(text, &reading.tokens, &reading.bad))
         .flatten();
     let Some(verbatim) = verbatim else {
@@ -80,12 +88,19 @@ fn kept(text: &str, refused: bool) -> Formatted {
     }
 }
 
-fn is_newer(tokens: &[Token], text: &str) -> bool {
+/// What may be the edition line: `vpl` and the two tokens behind it, or nothing.
+fn header(tokens: &[Token], text: &str) -> Vec<Token> {
     let trivia = [TokenClass::Newline, TokenClass::Comment, TokenClass::Doc];
-    let mut code = tokens.iter().filter(|t| !trivia.contains(&t.class));
-    let begins = code.next().is_some_and(|t| t.text(text).eq_ignore_ascii_case("vpl"));
+    let mut code = tokens.iter().filter(|t| !trivia.contains(&t.class)).peekable();
+    match code.peek() {
+        Some(t) if t.text(text).eq_ignore_ascii_case("vpl") => code.take(3).copied().collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn is_newer(header: &[Token], text: &str) -> bool {
     // Behind a `:` that has no place there, perhaps.
-    let edition = code.take(2).find(|t| begins && t.class == TokenClass::Number);
+    let edition = header.iter().find(|t| t.class == TokenClass::Number);
     edition
         .and_then(|t| t.text(text).parse::<u64>().ok())
         .is_some_and(|e| e > u64::from(EDITION))

@@ -150,6 +150,12 @@ fn what_the_parser_does_not_take_is_untouched() {
 }
 
 #[test]
+fn a_space_makes_no_edition_line() {
+    assert_eq!(format("vpl1\nlet  a=1").text, "vpl1\nlet a = 1\n");
+    assert_eq!(format("VPL  1\nlet  a=1").text, "VPL 1\n\nlet a = 1\n");
+}
+
+#[test]
 fn templates_and_facts() {
     insta::assert_snapshot!(laid_out(
         "vpl 1\nlibrary box( width:length,prefix : text=\"b\" ){\nuse  other( width:width/2 )\nuse plain\nfeature a:marker\n}\ntest   \"two . boxes\"{\nlibrary box\ngiven code[7]   detected,\ncode[4] absent\ngiven a=polygon([[1mm,2mm,3mm]])\nexpect   classes tk5,tk9\nexpect not confident\nexpect rule a,b->c predicts   4 // four\nexpect code[2] at [0 mm,0 mm,1m] facing -x within 5mm\nexpect class tk9 -50%\n}\n"
