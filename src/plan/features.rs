@@ -93,7 +93,11 @@ pub struct Predicted {
     pub rule: usize,
     /// Ids of all rules that predict it, in the library's order.
     pub by: Vec<String>,
-    /// What each visited view reached of `voxels`, one row a view.
+    /// Number of visited views that cannot have been a look: its detector could
+    /// not be run on them.
+    pub blind: usize,
+    /// What each visited view reached of `voxels`, one row a view; nothing in
+    /// the blind ones.
     pub looks: Vec<Vec<bool>>,
     /// Which of `voxels` are inspected.
     pub inspected: Vec<bool>,

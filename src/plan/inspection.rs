@@ -13,6 +13,10 @@
 //!   otherwise hide that place for ever. Where none does, every occupied voxel
 //!   hides, or x would stay reachable and never be inspected.
 //!
+//! A look counts only if the detector was run on it: where no definite rule
+//! detects the feature, views taken before its antecedents were measured are
+//! none.
+//!
 //! A detector that needs the feature whole counts a look only when at least
 //! ξ_ned of PV_ij passes all of this in that one view. A voxel of several
 //! polygons (an edge of a shell) is seen when any of them faces the view.

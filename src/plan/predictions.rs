@@ -26,7 +26,7 @@ use crate::detect::Measurement;
 use crate::geometry::{Edge, Point, Polygon, Vector};
 use crate::predict;
 use crate::primitives::{Strength, strength};
-use crate::rules::{BadArgument, FeatureId};
+use crate::rules::{BadArgument, FeatureId, FeatureKind};
 
 /// One rule's prediction of one instance.
 struct Offer {
@@ -234,7 +234,11 @@ fn replace<W: World + ?Sized>(
         let Some(best) = offers.into_iter().next() else {
             continue;
         };
-        let kept = before.remove(&key).filter(|p| p.polygons == best.polygons);
+        let before = before.remove(&key);
+        let blind = before
+            .as_ref()
+            .map_or_else(|| blind(id, status, knowledge), |p| p.blind);
+        let kept = before.filter(|p| p.polygons == best.polygons);
         let predicted = match kept {
             Some(kept) => Some(Predicted {
                 by,
@@ -248,7 +252,7 @@ fn replace<W: World + ?Sized>(
                 if placed.is_none() {
                     trace.blank(rule, &key, Nothing::Outside);
                 }
-                placed
+                placed.map(|placed| Predicted { blind, ..placed })
             }
         };
         if let Some(predicted) = predicted {
@@ -265,6 +269,19 @@ fn rule_ids(offers: &[Offer], knowledge: &Knowledge) -> Vec<String> {
         .into_iter()
         .map(|r| knowledge.library.rules[r].id.clone())
         .collect()
+}
+
+/// How many of the visited views cannot have been a look at a feature that is
+/// predicted for the first time. A detector that starts from antecedents was not
+/// run before they were measured, and their measurement is the last view. A
+/// definite rule was run on all views; a shell is proven from the map of all.
+fn blind(id: FeatureId, status: &Status, knowledge: &Knowledge) -> usize {
+    let whenever = knowledge.has_definite_rule(id) || knowledge.library.feature(id).kind == FeatureKind::Shell;
+    if whenever {
+        0
+    } else {
+        status.visited.len().saturating_sub(1)
+    }
 }
 
 /// A new prediction; `None` where PV_ij is empty.
@@ -290,6 +307,7 @@ fn place<W: World + ?Sized>(
         tag: status.next_tag,
         rule: offer.expansion.rule,
         by,
+        blind: 0,
         looks: Vec::new(),
     })
 }
@@ -301,9 +319,10 @@ fn inspect<W: World + ?Sized>(id: FeatureId, status: &mut Status, knowledge: &Kn
     let (visited, feature) = (&status.visited, &mut status.features[id.index()]);
     for predicted in feature.predicted.values_mut() {
         let (voxels, envelope) = (&predicted.voxels, &predicted.envelope);
-        let missing = &visited[predicted.looks.len().min(visited.len())..];
-        let look = |view| reachable(world, view, voxels, envelope, criteria.near, |_| true);
-        let looks: Vec<Vec<bool>> = missing.par_iter().map(look).collect();
+        let blind = predicted.blind;
+        let missing = predicted.looks.len().min(visited.len())..visited.len();
+        let look = |k| reachable(world, &visited[k], voxels, envelope, criteria.near, |_| k >= blind);
+        let looks: Vec<Vec<bool>> = missing.into_par_iter().map(look).collect();
         predicted.looks.extend(looks);
         let known = evidence(world, voxels, criteria);
         predicted.inspected = inspected(&predicted.looks, &known, envelope.whole, criteria.absent);
