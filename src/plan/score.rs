@@ -162,6 +162,18 @@ pub fn reachable_count<W: World + ?Sized>(
     reach(world, view, predicted, knowledge).counted(knowledge)
 }
 
+/// Voxels of PV_ij that a view reaches, inspected or not.
+pub fn shown_count<W: World + ?Sized>(
+    world: &W,
+    view: &Viewpoint,
+    predicted: &Predicted,
+    knowledge: &Knowledge,
+) -> usize {
+    let near = knowledge.criteria.near;
+    let reached = reachable(world, view, &predicted.voxels, &predicted.envelope, near, |_| true);
+    reached.into_iter().filter(|r| *r).count()
+}
+
 fn reach<W: World + ?Sized>(world: &W, view: &Viewpoint, predicted: &Predicted, knowledge: &Knowledge) -> Reach {
     let whole = predicted.envelope.whole;
     let open = |k: usize| !predicted.inspected[k];

@@ -2,6 +2,7 @@ mod arrows;
 mod differential;
 mod fixtures;
 mod instances;
+mod methods;
 mod reference;
 mod simulated;
 mod tanks;

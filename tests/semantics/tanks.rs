@@ -24,7 +24,7 @@ const TABLE: [&str; 12] = [
 ];
 
 /// Codes of 2 m; the layout of the first `tied.len()` of them.
-fn codes(count: usize, classes: Vec<Class>, tied: &[Pose]) -> Library {
+pub fn codes(count: usize, classes: Vec<Class>, tied: &[Pose]) -> Library {
     let detect = |k: usize| call("qr", [("text", text(&format!("f{k}"))), ("size", length(2.0))]);
     let measure = || call("marker_pose", []);
     let features = (1..=count).map(|k| feature(&format!("code[{k}]"), FeatureKind::Marker, false));

@@ -2,7 +2,7 @@
 
 use rand_pcg::Pcg64;
 
-use super::{Choice, Method, Rank, Situation};
+use super::{Choice, Method, Situation};
 
 pub(super) struct Gn;
 
@@ -12,18 +12,8 @@ impl Method for Gn {
     }
 
     fn choose(&self, situation: &Situation<'_>, _: &mut Pcg64) -> Option<Choice> {
-        let rank = |position: usize| Rank {
-            position,
-            score: situation.gains.total(position),
-            overlap: true,
-            share: None,
-        };
-        let ranks = (0..situation.gains.views.len()).map(rank).collect();
-        let (best, rivals) = situation.ranked(ranks, |rank| rank.score)?;
-        Some(Choice {
-            best,
-            relaxed: false,
-            rivals,
-        })
+        let gain = |position: usize| situation.gains.total(position);
+        let gains: Vec<f64> = (0..situation.gains.views.len()).map(gain).collect();
+        situation.largest(&gains)
     }
 }

@@ -5,7 +5,10 @@
 
 mod gn;
 mod gno;
+mod joint;
+mod pfdt;
 mod random;
+mod ts;
 
 use rand_pcg::Pcg64;
 
@@ -26,7 +29,15 @@ pub trait Method: Sync {
 }
 
 /// All methods.
-const METHODS: &[&dyn Method] = &[&gn::Gn, &gno::Gno, &random::Random];
+const METHODS: &[&dyn Method] = &[
+    &gn::Gn,
+    &gno::Gno,
+    &joint::Joint,
+    &joint::Joint2,
+    &pfdt::Pfdt,
+    &random::Random,
+    &ts::TwoStages,
+];
 
 /// What a method chooses by.
 pub struct Situation<'a> {
@@ -104,6 +115,33 @@ impl Situation<'_> {
         positions.par_iter().map(share).collect()
     }
 
+    /// G_so of every unvisited view after the gain floor, whatever W is.
+    pub fn surfaces(&self) -> Vec<u64> {
+        use rayon::prelude::*;
+        let rear = self.world.rear_side();
+        let views = self.gains.views.par_iter().map(|v| &self.candidates[*v]);
+        let surface = |view: &Viewpoint| score::surface_gain(self.world, view, &rear, self.knowledge);
+        views.map(surface).collect()
+    }
+
+    /// The choice by a value of every unvisited view, without an overlap
+    /// constraint.
+    pub fn largest(&self, values: &[f64]) -> Option<Choice> {
+        let rank = |(position, score): (usize, &f64)| Rank {
+            position,
+            score: *score,
+            overlap: true,
+            share: None,
+        };
+        let ranks = values.iter().enumerate().map(rank).collect();
+        let (best, rivals) = self.ranked(ranks, |rank| rank.score)?;
+        Some(Choice {
+            best,
+            relaxed: false,
+            rivals,
+        })
+    }
+
     /// The views of largest value, best first: of equals the nearest to the
     /// current view, then the lowest index. The first is the choice, the others of
     /// some value its rivals.
@@ -136,9 +174,9 @@ mod tests {
     #[test]
     fn names_are_read_in_any_case_and_unknown_ones_list_what_exists() {
         assert_eq!(method("GNO").unwrap().name(), "gno");
-        let message = method("joint").err().unwrap().to_string();
+        let message = method("best").err().unwrap().to_string();
         assert!(
-            message.contains("`joint`") && message.contains("`gn`, `gno`, `random`"),
+            message.contains("`best`") && message.contains("`gn`, `gno`, `joint`"),
             "{message}"
         );
     }
