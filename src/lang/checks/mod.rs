@@ -15,6 +15,7 @@ mod frustum;
 mod layouts;
 mod markers;
 mod objects;
+mod single;
 mod space;
 mod starts;
 mod superfluous;
@@ -82,6 +83,7 @@ fn of_library(library: &Library, layouts: &[Option<Placed>], found: &mut Vec<Dia
     found.extend(features::check(library));
     found.extend(firing::check(library, &reach));
     found.extend(starts::check(library, &reach));
+    found.extend(single::check(library));
     found.extend(superfluous::check(library));
     found.extend(contradicting::check(library));
     found.extend(detectability::check(library));

@@ -126,6 +126,7 @@ codes! {
     W0416 "a mark without a print"
     W0417 "a layout that the space cannot hold"
     W0418 "a map of many gigabytes"
+    W0419 "several places for one instance"
     N0401 "what recognition costs"
     N0402 "objects that no class is named after"
     N0403 "objects that reach out of the space"
