@@ -78,9 +78,17 @@ impl Group {
         matches!(self.kind, Kind::Block | Kind::Fields) && !self.body.is_empty()
     }
 
-    /// Whether it may be written over several lines.
+    /// Whether it may be written over several lines. A point reads as one thing, as a
+    /// number does.
     pub fn breaks(&self) -> bool {
-        self.kind != Kind::Index && !self.body.is_empty()
+        self.kind != Kind::Index && !self.body.is_empty() && !self.is_point()
+    }
+
+    /// Three numbers with their units, or fewer, on one line.
+    fn is_point(&self) -> bool {
+        let commas = self.body.iter().filter(|p| matches!(p, Piece::Comma)).count();
+        let plain = |p: &Piece| matches!(p, Piece::Word { .. } | Piece::Comma);
+        self.kind == Kind::List && commas <= 2 && self.body.len() <= 3 * 2 + 2 && self.body.iter().all(plain)
     }
 
     /// The only thing in it, where that is a pair of brackets: to break one is to break
