@@ -7,28 +7,39 @@
 
 mod brick;
 mod bricks;
+mod centre_view;
 mod clearance;
 mod frame;
 mod grid;
 mod layout;
+mod line;
 mod log_odds;
 mod octomap_file;
+mod planning;
 mod points;
+mod ray;
+mod ray_counts;
 mod rear_side;
 mod tags;
 mod visibility;
+mod voxel_set;
 mod walk;
 
+pub use centre_view::CentreView;
 pub use grid::{Grid, Voxel};
 pub use octomap_file::write_bt;
+pub use planning::{PlanningGrid, State};
+pub use ray::{Ray, image_rays};
+pub use ray_counts::{RayCounts, Seen};
 pub use tags::Tag;
 pub use visibility::{Sight, Visibility};
+pub use voxel_set::VoxelSet;
 
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
-use crate::geometry::Point;
+use crate::geometry::{DepthRange, Intrinsics, Point, Pose};
 use crate::rules::{SensorModel, Space};
 use crate::sense::Observation;
 use brick::Brick;
@@ -223,13 +234,33 @@ impl Map {
     /// whose centre lies within `tolerance` metres of the centre of `voxel`
     /// does not hide it. Many questions of one eye: [`Map::visibility`].
     pub fn visible(&self, eye: &Point, voxel: Voxel, tolerance: f64) -> bool {
-        self.visibility().from(eye, tolerance).sees(voxel)
+        self.visibility().from(eye).sees(voxel, tolerance)
     }
 
     /// What can be seen of the space as it is now.
     pub fn visibility(&self) -> Visibility<'_> {
-        let clearance = self.clearance.get_or_init(|| Clearance::of(&self.layout, &self.bricks));
-        Visibility::new(self.grid, clearance)
+        Visibility::new(self.grid, self.clearance())
+    }
+
+    /// What a depth camera would see of the space as it is now, by the centres of
+    /// voxels.
+    pub fn centre_view(&self, image: &Intrinsics, range: DepthRange, world_from_camera: &Pose) -> CentreView {
+        CentreView::of(&self.grid, self.clearance(), image, range, world_from_camera)
+    }
+
+    fn clearance(&self) -> &Clearance {
+        self.clearance.get_or_init(|| Clearance::of(&self.layout, &self.bricks))
+    }
+
+    /// Unknown voxels, tagged or not.
+    pub fn unknown(&self) -> VoxelSet {
+        let known = |index| self.bricks.get(index).map_or([0; layout::WORDS], |b: &Brick| b.known);
+        VoxelSet::without(&self.layout, self.grid.size, known)
+    }
+
+    /// The states of all voxels as they are now, for rays: a byte a voxel.
+    pub fn planning_grid(&self) -> PlanningGrid {
+        PlanningGrid::of(&self.grid, &self.layout, &self.bricks)
     }
 
     /// Voxels by state.
