@@ -82,6 +82,11 @@ impl Clearance {
         self.words.is_empty()
     }
 
+    /// First cell and extents, in cells, of the box of occupied blocks.
+    pub fn extent(&self) -> ([i32; 3], [i32; 3]) {
+        (self.low, [0, 1, 2].map(|k| self.high[k] - self.low[k]))
+    }
+
     /// The blocks with occupied voxels: first cell and bits.
     pub fn occupied(&self) -> impl Iterator<Item = ([i32; 3], u64)> {
         self.corners.iter().copied().zip(self.words.iter().copied())

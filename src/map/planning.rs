@@ -114,7 +114,8 @@ impl PlanningGrid {
     #[inline(always)]
     pub fn walk(&self, ray: &Ray, mut visit: impl FnMut(Voxel, State) -> bool) {
         if let Some(track) = self.tracks.track(ray) {
-            track.walk(|voxel| visit(voxel, self.state(voxel)));
+            let state = |voxel: Voxel| self.states.get(voxel.0 as usize);
+            track.walk(|voxel| state(voxel).is_some_and(|state| visit(voxel, State(*state))));
         }
     }
 }

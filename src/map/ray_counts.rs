@@ -62,15 +62,18 @@ impl Seen {
 impl PlanningGrid {
     /// Unknown voxels that rays meet before an occupied one, once a ray.
     pub fn unknown_on_rays(&self, rays: &[Ray]) -> RayCounts {
-        let mut counts = RayCounts::default();
+        let (mut counts, mut known) = (RayCounts::default(), 0);
         for ray in rays {
+            let mut hit = false;
             self.walk(ray, |_, state| {
                 counts.steps += 1;
-                counts.unknown += u64::from(state.is_unknown());
-                counts.hits += u64::from(state.is_occupied());
-                !state.is_occupied()
+                known += u64::from(!state.is_unknown());
+                hit = state.is_occupied();
+                !hit
             });
+            counts.hits += u64::from(hit);
         }
+        counts.unknown = counts.steps - known;
         counts
     }
 
