@@ -6,11 +6,11 @@
 //! all pixels that it touches, so that no roll of the camera leaves a hole between
 //! neighbours; where it errs, it errs towards hidden.
 
+use super::cell_projection::{Projection, SLACK};
 use super::clearance::Clearance;
 use super::depth_window::DepthWindow;
 use super::grid::{Grid, Voxel};
 use super::layout::ones;
-use super::projection::{Projection, SLACK};
 use super::voxel_set::{Cube, VoxelSet};
 use crate::geometry::{DepthRange, Intrinsics, Pose};
 

@@ -8,8 +8,10 @@ use rayon::prelude::*;
 
 use super::bricks::Bricks;
 use super::grid::{Grid, Voxel};
-use super::layout::{Layout, WORDS};
-use super::ray::{Ray, Tracks};
+use super::layout::{Bits, Layout};
+use super::log_odds::LogOdds;
+use super::rays::{Ray, Tracks};
+use super::tags::Tags;
 
 const KNOWN: u8 = 1;
 const OCCUPIED: u8 = 2;
@@ -61,15 +63,26 @@ pub struct PlanningGrid {
 }
 
 impl PlanningGrid {
-    pub(super) fn of(grid: &Grid, layout: &Layout, bricks: &Bricks) -> Self {
+    pub(super) fn of(layout: &Layout, bricks: &Bricks, model: &LogOdds, tags: &Tags) -> Self {
+        let grid = *layout.grid();
         let mut states = vec![0; grid.len() as usize];
         let [width, depth, _] = grid.size.map(|n| n as usize);
         // Layers of bricks are whole stretches of the states.
         let layers = states.par_chunks_mut(8 * width * depth).enumerate();
-        layers.for_each(|(layer, states)| fill_layer(states, [width, depth], layer, layout, bricks));
+        layers.for_each(|(layer, states)| {
+            let stride = layout.strides[2];
+            for index in layer * stride..(layer + 1) * stride {
+                let measured = bricks.states_of(index, model);
+                let (known, occupied) = measured.map_or_else(Default::default, |b| (b.known, b.occupied));
+                let planes = [(KNOWN, known), (OCCUPIED, occupied), (TAGGED, tags.of_brick(index))];
+                if planes.iter().any(|(_, bits)| *bits != Bits::default()) {
+                    fill(states, [width, depth], layout.corner(index), &planes);
+                }
+            }
+        });
         Self {
-            grid: *grid,
-            tracks: Tracks::of(grid),
+            tracks: Tracks::of(&grid),
+            grid,
             states,
         }
     }
@@ -120,33 +133,23 @@ impl PlanningGrid {
     }
 }
 
-/// Writes the states of a layer of bricks.
-fn fill_layer(states: &mut [u8], [width, depth]: [usize; 2], layer: usize, layout: &Layout, bricks: &Bricks) {
-    let [across, down, _] = layout.bricks;
-    let indices = layer * across * down..(layer + 1) * across * down;
-    for brick in indices.filter_map(|index| bricks.get(index)) {
-        let [x, y, _] = layout.corner(brick.index);
-        let columns = (width - x).min(8);
-        for (z, slice) in states.chunks_exact_mut(width * depth).enumerate() {
-            for (row, line) in slice[y * width..].chunks_exact_mut(width).take(8).enumerate() {
-                let bytes = row_of(&brick.known, &brick.occupied, &brick.tagged, row, z);
-                line[x..x + columns].copy_from_slice(&bytes[..columns]);
-            }
+/// Writes the states of a brick into its layer.
+fn fill(states: &mut [u8], [width, depth]: [usize; 2], [x, y, _]: [usize; 3], planes: &[(u8, Bits)]) {
+    let columns = (width - x).min(8);
+    for (z, slice) in states.chunks_exact_mut(width * depth).enumerate() {
+        for (row, line) in slice[y * width..].chunks_exact_mut(width).take(8).enumerate() {
+            let values = planes
+                .iter()
+                .map(|(flag, bits)| spread(bits, row, z) * u64::from(*flag));
+            let bytes = values.sum::<u64>().to_le_bytes();
+            line[x..x + columns].copy_from_slice(&bytes[..columns]);
         }
     }
 }
 
-/// The states of a row of eight voxels of a brick.
+/// A row of a brick's bits as bytes of 0 and 1.
 #[inline(always)]
-fn row_of(known: &[u64; WORDS], occupied: &[u64; WORDS], tagged: &[u64; WORDS], y: usize, z: usize) -> [u8; 8] {
-    let row = |bits: &[u64; WORDS]| spread(bits, y, z);
-    let bytes = row(known) * u64::from(KNOWN) + row(occupied) * u64::from(OCCUPIED) + row(tagged) * u64::from(TAGGED);
-    bytes.to_le_bytes()
-}
-
-/// A row of bits as bytes of 0 and 1.
-#[inline(always)]
-fn spread(bits: &[u64; WORDS], y: usize, z: usize) -> u64 {
+fn spread(bits: &Bits, y: usize, z: usize) -> u64 {
     let (word, shift) = ((y / 4) << 1 | (z / 4) << 2, 4 * (y % 4) + 16 * (z % 4));
     let half = |word: u64| ((word >> shift & 0xf) * 0x0020_4081) & 0x0101_0101;
     half(bits[word]) | half(bits[word + 1]) << 32

@@ -1,159 +1,304 @@
-//! From the cells of a grid to the pixels of a view, in single precision.
+//! A depth image inserted by projection: a voxel is missed where its centre lies
+//! nearer than the reading of the pixel that it falls on.
 //!
-//! A voxel's centre is projected in one way only, from the first cell of its block of
-//! 4³, so that whoever asks for it gets the same bits.
+//! Cubes of voxels are tried against the range of readings in the rectangle that
+//! their corners span, from coarse to fine: wholly in front of all, they are
+//! missed at once; behind all, or where nothing was read, left alone. So work
+//! follows the surface and not the volume. What is decided for a cube is what its
+//! voxels one by one would give.
+//!
+//! Positions are kept as (u·z, v·z, z), linear in the world: one division gives
+//! the pixel.
 
-use super::depth_window::Pixels;
-use super::grid::{Grid, Voxel};
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+
+use super::layout::{Bits, Layout, WORDS};
+use super::marks::{self, Marks};
+use super::pyramid::{Pyramid, Rectangle};
+use super::table::Table;
 use super::walk::each;
-use crate::geometry::{DepthRange, Intrinsics, Pose};
+use crate::geometry::Vector;
+use crate::sense::Observation;
 
-/// Most columns of the image: a larger one is made smaller.
-const MOST_COLUMNS: u32 = 640;
-/// What a rounded coordinate may be off by, relative.
-pub(super) const SLACK: f32 = 1e-5;
+/// Cubes of this level are shared out to threads; one of level n has 4·2ⁿ voxels
+/// an edge.
+const TOP: usize = 4;
+const BRICK: usize = 1;
+/// Rounding of pixels and of relative depths that a whole cube allows for.
+const SLACK: f32 = 1e-2;
+const DEPTH_SLACK: f32 = 1e-5;
+/// Taken from image coordinates: then rounding to the nearest whole number, in
+/// [`pixel`], is rounding down. Short of a half, so that no border is a tie.
+const HALF: f64 = 0.4999;
 
-/// From cells of a grid to an image.
-#[derive(Clone, Debug)]
-pub(super) struct Projection {
-    /// Camera coordinates of the centre of cell 0, metres.
-    base: [f64; 3],
-    /// Camera coordinates of a step along each axis of the grid, metres.
-    steps: [[f64; 3]; 3],
-    /// Camera coordinates of the cells of a block from its first one.
-    offsets: Vec<[f32; 3]>,
-    focal: [f32; 2],
-    principal: [f32; 2],
-    width: f32,
-    height: f32,
-    /// The nearest and the farthest depth.
-    range: [f32; 2],
+/// (u·z, v·z, z), pixels less [`HALF`] and metres.
+type Scaled = [f32; 3];
+
+/// Positions of `N` points relative to the centre of what they belong to.
+struct Offsets<const N: usize> {
+    u: [f32; N],
+    v: [f32; N],
+    z: [f32; N],
 }
 
-/// Bounds of the centres of a box of cells.
-pub(super) struct Bound {
-    /// z-depths, metres.
-    pub near: f32,
-    pub far: f32,
-    /// Whether all of them lie inside image and range.
-    pub whole: bool,
-    /// `None` where none does.
-    pub pixels: Option<Pixels>,
+/// A depth image in front of the bricks that it changes.
+pub(super) struct Projection<'a> {
+    layout: &'a Layout,
+    table: &'a Table,
+    marks: &'a Marks,
+    depth: Cow<'a, [f32]>,
+    pyramid: Pyramid,
+    /// Columns and rows.
+    size: [usize; 2],
+    /// Scaled position of the grid's corner.
+    corner: [f64; 3],
+    /// What a voxel along each axis of the world adds to a scaled position.
+    axes: [[f64; 3]; 3],
+    /// Corners of a cube of each level.
+    corners: Vec<Offsets<8>>,
+    /// Voxels of a word.
+    voxels: Offsets<64>,
 }
 
-impl Projection {
-    pub fn of(grid: &Grid, image: &Intrinsics, range: DepthRange, world_from_camera: &Pose) -> Self {
-        let scale = f64::from(image.width.min(MOST_COLUMNS)) / f64::from(image.width.max(1));
-        let camera_from_world = world_from_camera.inverse();
-        let base = camera_from_world * grid.centre(Voxel(0));
-        let rotation = camera_from_world.rotation.to_rotation_matrix();
-        let steps = each(|axis| each(|k| rotation[(k, axis)] * grid.voxel));
-        let offset = |bit: usize| {
-            let cells = [bit & 3, bit >> 2 & 3, bit >> 4].map(|c| c as f64);
-            each(|k| (0..3).map(|axis| steps[axis][k] * cells[axis]).sum::<f64>() as f32)
+/// A cube of voxels.
+#[derive(Clone, Copy)]
+struct Cube {
+    first: [usize; 3],
+    centre: Scaled,
+}
+
+/// Where the corners of eight cubes lie.
+struct Spans {
+    u: [[f32; 8]; 2],
+    v: [[f32; 8]; 2],
+    z: [[f32; 8]; 2],
+}
+
+/// How a cube lies to the readings.
+enum Side {
+    /// None of its voxels is missed.
+    Beyond,
+    /// All are.
+    Before,
+    /// They have to be tried.
+    Across { inside: bool },
+}
+
+impl<'a> Projection<'a> {
+    /// An observation before a grid.
+    pub fn of(layout: &'a Layout, table: &'a Table, marks: &'a Marks, observation: &'a Observation) -> Self {
+        let k = &observation.camera.depth;
+        let grid = layout.grid();
+        let camera_from_world = observation.world_from_camera.rotation.inverse();
+        let scaled = |world: Vector| {
+            let p = camera_from_world * world;
+            [k.fx * p.x + (k.cx - HALF) * p.z, k.fy * p.y + (k.cy - HALF) * p.z, p.z]
         };
-        let size = |n: u32| (f64::from(n) * scale).round().max(1.0) as f32;
+        let axes = each(|axis| scaled(Vector::ith(axis, grid.voxel)));
+        let width = observation.depth.width as usize;
+        let depth = readable(&observation.depth.metres);
         Self {
-            base: each(|k| base[k]),
-            steps,
-            offsets: (0..64).map(offset).collect(),
-            focal: [image.fx, image.fy].map(|f| (f * scale) as f32),
-            principal: [image.cx, image.cy].map(|c| (c * scale) as f32),
-            width: size(image.width),
-            height: size(image.height),
-            range: [range.min.max(1e-6), range.max].map(|z| z as f32),
+            pyramid: Pyramid::of(&depth, width),
+            size: [width, depth.len() / width.max(1)],
+            depth,
+            corner: scaled(grid.origin - observation.eye()),
+            corners: (0..TOP)
+                .map(|level| Offsets::grid(&axes, (4 << level) as f64))
+                .collect(),
+            voxels: Offsets::grid(&axes, 1.0),
+            layout,
+            table,
+            marks,
+            axes,
         }
     }
 
-    /// Camera coordinates of the centre of a cell.
-    #[inline(always)]
-    pub fn place(&self, cell: [i32; 3]) -> [f32; 3] {
-        let [x, y, z] = cell.map(f64::from);
-        each(|k| (self.base[k] + self.steps[0][k] * x + self.steps[1][k] * y + self.steps[2][k] * z) as f32)
+    /// Marks the missed voxels.
+    pub fn carve(&self) {
+        let edge = 4 << TOP;
+        let cubes = self.layout.bricks.map(|bricks| (bricks * 8).div_ceil(edge));
+        (0..cubes.iter().product()).into_par_iter().for_each(|i: usize| {
+            let first = [i % cubes[0], i / cubes[0] % cubes[1], i / cubes[0] / cubes[1]].map(|c| c * edge);
+            self.descend(&self.cube(first, edge), TOP);
+        });
     }
 
-    /// Camera coordinates of a cell of the block whose first one is at `base`.
-    #[inline(always)]
-    pub fn in_block(&self, base: [f32; 3], bit: usize) -> [f32; 3] {
-        let offset = &self.offsets[bit & 63];
-        each(|k| base[k] + offset[k])
-    }
-
-    /// Whether a depth can be read.
-    #[inline(always)]
-    pub fn reads(&self, depth: f32) -> bool {
-        self.range[0] <= depth && depth <= self.range[1]
-    }
-
-    /// Column and row of a point; `None` outside the image or behind the camera.
-    #[inline(always)]
-    pub fn pixel(&self, p: [f32; 3]) -> Option<(usize, usize)> {
-        let scale = 1.0 / p[2];
-        let u = p[0] * scale * self.focal[0] + self.principal[0];
-        let v = p[1] * scale * self.focal[1] + self.principal[1];
-        let inside = p[2] > 0.0 && u >= 0.0 && v >= 0.0 && u < self.width && v < self.height;
-        inside.then_some((u as u32 as usize, v as u32 as usize))
-    }
-
-    /// The pixels that a square across the optical axis touches.
-    #[inline(always)]
-    pub fn square(&self, p: [f32; 3], half: f32) -> Option<Pixels> {
-        let scale = 1.0 / p[2];
-        if !(p[2] > 0.0 && scale.is_finite()) {
-            return None;
+    fn cube(&self, first: [usize; 3], edge: usize) -> Cube {
+        let middle = first.map(|c| c as f64 + edge as f64 / 2.0);
+        let along = |k: usize| (0..3).map(|axis| middle[axis] * self.axes[axis][k]).sum::<f64>();
+        Cube {
+            first,
+            centre: each(|k| (self.corner[k] + along(k)) as f32),
         }
-        let [u, v] = [0, 1].map(|k| p[k] * scale * self.focal[k] + self.principal[k]);
-        let [du, dv] = [0, 1].map(|k| half * scale * self.focal[k]);
-        self.clipped([u - du, v - dv], [u + du, v + dv])
     }
 
-    /// Bounds the centres of `sides` cells along each axis, from the first on; `None`
-    /// where some may lie beside or behind the eye.
-    pub fn bound(&self, first: [i32; 3], sides: [i32; 3]) -> Option<Bound> {
-        let first = self.place(first);
-        let (mut low, mut high) = (first, first);
-        for axis in 0..3 {
-            for k in 0..3 {
-                let step = (self.steps[axis][k] * f64::from(sides[axis] - 1)) as f32;
-                (low[k], high[k]) = (low[k] + step.min(0.0), high[k] + step.max(0.0));
+    /// Marks what is missed of a cube larger than a brick.
+    fn descend(&self, cube: &Cube, level: usize) {
+        let (spans, half) = (self.spans(cube, level - 1), 2 << level);
+        for i in 0..8 {
+            let first = each(|k| cube.first[k] + (i >> k & 1) * half);
+            if (0..3).any(|k| first[k] >= self.layout.bricks[k] * 8) {
+                continue;
+            }
+            let child = Cube {
+                first,
+                centre: self.corners[level - 1].beside(cube.centre, i),
+            };
+            match self.side(&spans, i) {
+                Side::Beyond => {}
+                Side::Before => self.fill(&child, half),
+                Side::Across { .. } if level - 1 > BRICK => self.descend(&child, level - 1),
+                Side::Across { .. } => self.brick(&child),
             }
         }
-        let slack = SLACK * (0..3).map(|k| high[k].abs().max(low[k].abs())).sum::<f32>();
-        (low, high) = (low.map(|c| c - slack), high.map(|c| c + slack));
-        if !(low[2] > 0.0 && high.iter().chain(&low).all(|c| c.is_finite())) {
-            return None;
-        }
-        let (near, far) = (1.0 / low[2], 1.0 / high[2]);
-        let from = [0, 1].map(|k| low[k] * if low[k] < 0.0 { near } else { far } * self.focal[k] + self.principal[k]);
-        let to = [0, 1].map(|k| high[k] * if high[k] > 0.0 { near } else { far } * self.focal[k] + self.principal[k]);
-        let inside = from[0] >= 0.0 && from[1] >= 0.0 && to[0] < self.width && to[1] < self.height;
-        let beyond = high[2] < self.range[0] || low[2] > self.range[1];
-        Some(Bound {
-            near: low[2],
-            far: high[2],
-            whole: inside && self.reads(low[2]) && self.reads(high[2]),
-            pixels: if beyond { None } else { self.clipped(from, to) },
-        })
     }
 
-    /// All pixels.
-    pub fn image(&self) -> Pixels {
-        Pixels {
-            left: 0,
-            top: 0,
-            right: self.width as usize - 1,
-            bottom: self.height as usize - 1,
+    fn fill(&self, cube: &Cube, edge: usize) {
+        let ends = each(|k| (cube.first[k] + edge).min(self.layout.bricks[k] * 8));
+        let [xs, ys, zs] = each(|k| (cube.first[k]..ends[k]).step_by(8));
+        for z in zs {
+            for y in ys.clone() {
+                xs.clone().for_each(|x| self.mark([x, y, z], &[u64::MAX; WORDS]));
+            }
         }
+    }
+
+    fn brick(&self, cube: &Cube) {
+        let spans = self.spans(cube, 0);
+        let misses = std::array::from_fn(|word| match self.side(&spans, word) {
+            Side::Beyond => 0,
+            Side::Before => u64::MAX,
+            Side::Across { inside } => self.word(self.corners[0].beside(cube.centre, word), inside),
+        });
+        if misses != [0; WORDS] {
+            self.mark(cube.first, &misses);
+        }
+    }
+
+    fn mark(&self, first: [usize; 3], misses: &Bits) {
+        let [x, y, z] = first.map(|c| c / 8);
+        let [dx, dy, dz] = self.layout.strides;
+        if let Some(words) = self.marks.misses(self.table, x * dx + y * dy + z * dz) {
+            marks::mark_all(words, misses);
+        }
+    }
+
+    /// Where the eight parts of a cube lie that are of a level.
+    #[inline(always)]
+    fn spans(&self, cube: &Cube, level: usize) -> Spans {
+        let (at, [u, v, z]) = (&self.corners[level], cube.centre);
+        let mut spans = Spans {
+            u: [[f32::INFINITY; 8], [f32::NEG_INFINITY; 8]],
+            v: [[f32::INFINITY; 8], [f32::NEG_INFINITY; 8]],
+            z: [[f32::INFINITY; 8], [f32::NEG_INFINITY; 8]],
+        };
+        for corner in 0..8 {
+            let (du, dv, dz) = (at.u[corner], at.v[corner], at.z[corner]);
+            for i in 0..8 {
+                let depth = z + at.z[i] + dz;
+                let inverse = 1.0 / depth;
+                widen(&mut spans.u, i, (u + at.u[i] + du) * inverse);
+                widen(&mut spans.v, i, (v + at.v[i] + dv) * inverse);
+                widen(&mut spans.z, i, depth);
+            }
+        }
+        spans
     }
 
     #[inline(always)]
-    fn clipped(&self, low: [f32; 2], high: [f32; 2]) -> Option<Pixels> {
-        let meets = high[0] >= 0.0 && high[1] >= 0.0 && low[0] < self.width && low[1] < self.height;
-        meets.then(|| Pixels {
-            left: low[0].max(0.0) as u32 as usize,
-            top: low[1].max(0.0) as u32 as usize,
-            right: high[0].min(self.width - 1.0) as u32 as usize,
-            bottom: high[1].min(self.height - 1.0) as u32 as usize,
-        })
+    fn side(&self, spans: &Spans, i: usize) -> Side {
+        let [near, far] = spans.z.map(|z| z[i]);
+        if far <= 0.0 {
+            return Side::Beyond;
+        }
+        if near <= SLACK * far {
+            return Side::Across { inside: false };
+        }
+        let half = HALF as f32;
+        let [left, right] = [spans.u[0][i] + half - SLACK, spans.u[1][i] + half + SLACK];
+        let [top, bottom] = [spans.v[0][i] + half - SLACK, spans.v[1][i] + half + SLACK];
+        let [width, height] = self.size.map(|n| n as f32);
+        if !(right >= 0.0 && bottom >= 0.0 && left < width && top < height) {
+            return Side::Beyond;
+        }
+        let inside = left >= 0.0 && top >= 0.0 && right < width && bottom < height;
+        // From floats at least 0 to whole numbers that are in the image.
+        let ends = |low: f32, high: f32, n: usize| [(low.max(0.0) as usize).min(n - 1), (high as usize).min(n - 1)];
+        let [least, most] = self.pyramid.range(&Rectangle {
+            u: ends(left, right, self.size[0]),
+            v: ends(top, bottom, self.size[1]),
+        });
+        if near * (1.0 - DEPTH_SLACK) > most {
+            Side::Beyond
+        } else if inside && far * (1.0 + DEPTH_SLACK) < least {
+            Side::Before
+        } else {
+            Side::Across { inside }
+        }
     }
+
+    /// Missed voxels of a word, one by one.
+    fn word(&self, [u, v, z]: Scaled, inside: bool) -> u64 {
+        let (mut pixels, mut depths) = ([0_u32; 64], [0.0_f32; 64]);
+        let (at, width) = (&self.voxels, self.size[0] as u32);
+        for i in 0..64 {
+            let depth = z + at.z[i];
+            let inverse = 1.0 / depth;
+            let column = pixel((u + at.u[i]) * inverse);
+            let row = pixel((v + at.v[i]) * inverse);
+            let seen = inside || (column < width && row < self.size[1] as u32 && depth > 0.0);
+            pixels[i] = row.wrapping_mul(width).wrapping_add(column);
+            depths[i] = if seen { depth } else { f32::INFINITY };
+        }
+        let mut missed = 0;
+        for i in 0..64 {
+            let read = self.depth.get(pixels[i] as usize).copied().unwrap_or(0.0);
+            missed |= u64::from(depths[i] < read) << i;
+        }
+        missed
+    }
+}
+
+impl<const N: usize> Offsets<N> {
+    /// A cube of `N` points, x fastest, so many voxels apart.
+    fn grid(axes: &[[f64; 3]; 3], apart: f64) -> Self {
+        let side = (N as f64).cbrt().round() as usize;
+        let position = |i: usize, k: usize| {
+            let cell = [i % side, i / side % side, i / side / side];
+            let from_middle = |axis: usize| (cell[axis] as f64 - (side as f64 - 1.0) / 2.0) * apart;
+            (0..3).map(|axis| from_middle(axis) * axes[axis][k]).sum::<f64>() as f32
+        };
+        let [u, v, z] = each(|k| std::array::from_fn(|i| position(i, k)));
+        Self { u, v, z }
+    }
+
+    #[inline(always)]
+    fn beside(&self, centre: Scaled, i: usize) -> Scaled {
+        [centre[0] + self.u[i], centre[1] + self.v[i], centre[2] + self.z[i]]
+    }
+}
+
+#[inline(always)]
+fn widen(span: &mut [[f32; 8]; 2], i: usize, value: f32) {
+    span[0][i] = if value < span[0][i] { value } else { span[0][i] };
+    span[1][i] = if value > span[1][i] { value } else { span[1][i] };
+}
+
+/// The nearest whole number of one from 0 to 2²³, which adding 2²³ leaves in the
+/// mantissa; a large number for any other. (`as` is several instructions.)
+#[inline(always)]
+fn pixel(coordinate: f32) -> u32 {
+    (coordinate + 8_388_608.0).to_bits().wrapping_sub(0x4b00_0000)
+}
+
+/// A depth image without infinities, which are no readings.
+fn readable(metres: &[f32]) -> Cow<'_, [f32]> {
+    let infinite = metres.iter().fold(false, |any, z| any | (z.abs() == f32::INFINITY));
+    if !infinite {
+        return Cow::Borrowed(metres);
+    }
+    let readings = metres.iter().map(|&z| if z.is_finite() { z } else { 0.0 });
+    Cow::Owned(readings.collect())
 }

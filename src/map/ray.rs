@@ -1,206 +1,167 @@
-//! Rays through the voxels of a grid, in whole numbers.
+//! Rays as OctoMap walks them (`computeRayKeys`, after Amanatides and Woo 1987),
+//! to the last bit: the same voxels in the same order, ties included.
 //!
-//! Voxels are met in order from the ray's origin to its end (Amanatides and Woo
-//! 1987). Times of crossing are counted from where the ray enters the grid, in
-//! 2⁻³² of a voxel, and the last one inside the grid is known from the outset: no
-//! rounding leads out of it. Through an edge or a corner, x is crossed before y and
-//! y before z.
+//! A ray ends at the centre of a voxel, so rounding cannot carry it past: it
+//! makes as many steps as the voxels' coordinates differ by. Outside the grid it
+//! takes all its steps at once; times are then products where OctoMap sums, which
+//! can differ only for a ray within 1e-12 of an edge.
 
-use super::grid::{Grid, Voxel};
+use super::keys::Keys;
 use super::walk::each;
-use crate::geometry::{Intrinsics, Point, Pose, Vector};
 
-/// A straight line of limited length.
-#[derive(Clone, Copy, Debug)]
-pub struct Ray {
-    origin: Point,
-    /// Of length 1.
-    direction: Vector,
-    length: f64,
+/// Where rays of a frame start.
+#[derive(Clone, Copy)]
+pub(super) struct Eye {
+    /// OctoMap's precision, metres.
+    pub at: [f32; 3],
+    /// The voxel that it is in.
+    pub cell: [i32; 3],
+}
+
+/// The voxels of the grid that a ray misses.
+#[derive(Debug)]
+pub(super) struct Ray {
+    /// The first of them.
+    pub cell: [i32; 3],
+    /// The others, one a step.
+    pub steps: u32,
+    /// Axes that it descends along, one bit each.
+    pub down: u8,
+    /// Distance at which the next border of each axis is crossed.
+    pub next: [f64; 3],
+    /// Distance between borders of an axis.
+    pub period: [f64; 3],
+}
+
+/// A number of borders of an axis, the last of which is crossed at a distance.
+#[derive(Clone, Copy)]
+struct Crossing {
+    axis: usize,
+    borders: i32,
+    at: f64,
 }
 
 impl Ray {
-    /// The ray from `origin` along `direction`, of any length but 0, for `length`
-    /// metres. One that is not finite meets nothing.
-    pub fn new(origin: Point, direction: Vector, length: f64) -> Self {
+    /// The ray from an eye to a voxel, which it does not miss; `None` where it
+    /// misses none of the grid.
+    #[inline]
+    pub fn between(keys: &Keys, eye: &Eye, end: [i32; 3]) -> Option<Self> {
+        if eye.cell == end {
+            return None;
+        }
+        let mut ray = Self::toward(keys, eye, end);
+        if !keys.has(eye.cell) && !ray.enter(keys, end) {
+            return None;
+        }
+        ray.steps = match keys.has(end) {
+            true => distance(ray.cell, end).checked_sub(1)?,
+            false => ray.steps_inside(keys),
+        };
+        Some(ray)
+    }
+
+    fn toward(keys: &Keys, eye: &Eye, end: [i32; 3]) -> Self {
+        let along = each(|k| keys.middle(k, end[k]) as f32 - eye.at[k]);
+        let length = f64::from(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]).sqrt() as f32;
+        let direction = each(|k| along[k] / length);
+        let half = |k: usize| f64::from((keys.voxel * 0.5).copysign(f64::from(direction[k])) as f32);
+        let border = |k: usize| keys.middle(k, eye.cell[k]) + half(k);
+        let moves = each(|k| direction[k] != 0.0);
         Self {
-            origin,
-            direction: direction.normalize(),
-            length: length.max(0.0),
+            cell: eye.cell,
+            steps: 0,
+            down: (0..3).fold(0, |down, k| down | u8::from(direction[k] < 0.0) << k),
+            next: each(|k| {
+                let crossed = (border(k) - f64::from(eye.at[k])) / f64::from(direction[k]);
+                if moves[k] { crossed } else { f64::MAX }
+            }),
+            period: each(|k| keys.voxel / f64::from(direction[k].abs())),
         }
     }
 
-    /// The segment between two points, metres.
-    pub fn between(from: &Point, to: &Point) -> Self {
-        Self::new(*from, to - from, (to - from).norm())
-    }
-
-    /// Where it begins, metres.
-    pub fn origin(&self) -> &Point {
-        &self.origin
-    }
-
-    /// A point so many metres along it.
-    pub fn at(&self, distance: f64) -> Point {
-        self.origin + self.direction * distance
-    }
-}
-
-/// The rays of an image through the middles of its cells of `every` × `every`
-/// pixels, row by row, from the eye to the depth `far` along the optical axis, metres.
-pub fn image_rays(
-    image: &Intrinsics,
-    every: u32,
-    far: f64,
-    world_from_camera: &Pose,
-) -> impl Iterator<Item = Ray> + use<> {
-    let (image, pose, every) = (*image, *world_from_camera, every.max(1));
-    let rotation = pose.rotation.to_rotation_matrix();
-    let eye = Point::from(pose.translation.vector);
-    let [columns, rows] = [image.width, image.height].map(|n| n / every);
-    let ray = move |u: u32, v: u32| {
-        let middle = |cell: u32| (f64::from(cell) + 0.5) * f64::from(every);
-        let along = image.ray(middle(u), middle(v));
-        Ray::new(eye, rotation * along, far * along.norm())
-    };
-    (0..rows).flat_map(move |v| (0..columns).map(move |u| ray(u, v)))
-}
-
-/// One voxel in the fixed point of times.
-const ONE: f64 = (1_u64 << 32) as f64;
-/// A time past every end: no ray is 2¹⁸ voxels long inside a grid.
-const NEVER: i64 = 1 << 50;
-
-/// The voxels that a ray meets in a grid.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Track {
-    /// Number of the first voxel.
-    first: usize,
-    /// From a voxel's number to its neighbour's along each axis.
-    step: [usize; 3],
-    /// When the next border of each axis is crossed.
-    next: [i64; 3],
-    period: [i64; 3],
-    /// No border is crossed later.
-    end: i64,
-}
-
-/// A grid with what every ray through it needs.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Tracks {
-    origin: Point,
-    per_metre: f64,
-    size: [f64; 3],
-    strides: [usize; 3],
-}
-
-impl Tracks {
-    pub fn of(grid: &Grid) -> Self {
-        let [x, y, _] = grid.size.map(|n| n as usize);
-        Self {
-            origin: grid.origin,
-            per_metre: 1.0 / grid.voxel,
-            size: grid.size.map(f64::from),
-            strides: [1, x, x * y],
-        }
-    }
-
-    /// The voxels on a ray; `None` where it misses the grid.
-    #[inline(always)]
-    pub fn track(&self, ray: &Ray) -> Option<Track> {
-        let along = each(|k| ray.direction[k]);
-        let inverse = each(|k| 1.0 / along[k]);
-        let (start, length) = self.clip(ray, inverse)?;
-        let cell = self.cell(start);
-        let down = each(|k| along[k] < 0.0);
-        let ahead = each(|k| {
-            if down[k] {
-                start[k] - cell[k]
-            } else {
-                cell[k] + 1.0 - start[k]
-            }
-        });
-        let left = each(|k| if down[k] { cell[k] } else { self.size[k] - 1.0 - cell[k] });
-        let units = |voxels: f64| ((voxels * ONE) as i64).min(NEVER);
-        let period = each(|k| units(inverse[k].abs()));
-        let next = each(|k| units(ahead[k] * inverse[k].abs()));
-        // The crossing that leaves the grid, in the whole numbers that steps add up to.
-        let leave = each(|k| next[k].saturating_add(period[k].saturating_mul(left[k] as i64)));
-        let stride = self.strides;
-        Some(Track {
-            first: (0..3).map(|k| cell[k] as usize * stride[k]).sum(),
-            step: each(|k| if down[k] { stride[k].wrapping_neg() } else { stride[k] }),
-            next,
-            period,
-            end: units(length).min(leave[0].min(leave[1]).min(leave[2]) - 1),
-        })
-    }
-
-    /// The part of a ray inside the grid, where it begins and how far it goes along
-    /// each axis, in voxels; `None` where there is none.
-    #[inline(always)]
-    pub fn segment(&self, ray: &Ray) -> Option<([f64; 3], [f64; 3])> {
-        let (start, length) = self.clip(ray, each(|k| 1.0 / ray.direction[k]))?;
-        Some((start, each(|k| ray.direction[k] * length)))
-    }
-
-    /// The cell of a point inside the grid or on its border.
-    #[inline(always)]
-    pub fn cell(&self, point: [f64; 3]) -> [f64; 3] {
-        each(|k| f64::from(point[k] as u32).min(self.size[k] - 1.0))
-    }
-
-    /// Where a ray begins to be inside the grid, and for how long, in voxels.
-    #[inline(always)]
-    fn clip(&self, ray: &Ray, inverse: [f64; 3]) -> Option<([f64; 3], f64)> {
-        let from = each(|k| (ray.origin[k] - self.origin[k]) * self.per_metre);
-        let along = ray.direction;
-        let (mut enter, mut leave) = (0.0_f64, ray.length * self.per_metre);
+    /// Goes to the first voxel in the grid; `false` where the ray ends before or
+    /// passes the grid by.
+    fn enter(&mut self, keys: &Keys, end: [i32; 3]) -> bool {
+        let mut last: Option<Crossing> = None;
         for k in 0..3 {
-            if along[k] == 0.0 {
-                if !(0.0 <= from[k] && from[k] < self.size[k]) {
-                    return None;
-                }
-                continue;
+            let borders = match (self.is_down(k), self.cell[k]) {
+                (false, cell) if cell < 0 => -cell,
+                (true, cell) if cell >= keys.size[k] => cell - keys.size[k] + 1,
+                _ => continue,
+            };
+            let crossing = self.crossing(k, borders);
+            if last.is_none_or(|last| crossing.at > last.at) {
+                last = Some(crossing);
             }
-            let (a, b) = (-from[k] * inverse[k], (self.size[k] - from[k]) * inverse[k]);
-            enter = enter.max(a.min(b));
-            leave = leave.min(a.max(b));
         }
-        // A sum is not finite where one of its terms is not.
-        let finite = (from[0] + from[1] + from[2] + along[0] + along[1] + along[2]).is_finite();
-        let start = each(|k| (from[k] + enter * along[k]).max(0.0).min(self.size[k]));
-        (finite && enter < leave).then_some((start, leave - enter))
+        let Some(last) = last.filter(|last| last.at < f64::MAX) else {
+            return false;
+        };
+        let borders = each(|k| self.borders_until(k, last));
+        if (0..3).any(|k| borders[k] > (end[k] - self.cell[k]).abs()) {
+            return false;
+        }
+        self.cell = each(|k| self.cell[k] + if self.is_down(k) { -borders[k] } else { borders[k] });
+        self.next = each(|k| {
+            let later = self.next[k] + f64::from(borders[k]) * self.period[k];
+            if borders[k] > 0 { later } else { self.next[k] }
+        });
+        keys.has(self.cell)
+    }
+
+    /// Steps from a voxel of the grid to the last one, where the ray goes on.
+    fn steps_inside(&self, keys: &Keys) -> u32 {
+        let to_leave = |k: usize| {
+            if self.is_down(k) {
+                self.cell[k] + 1
+            } else {
+                keys.size[k] - self.cell[k]
+            }
+        };
+        let [x, y, z] = each(|k| self.crossing(k, to_leave(k)));
+        let yz = if y.at < z.at { y } else { z };
+        let first = if x.at < yz.at { x } else { yz };
+        let borders = (0..3).map(|k| self.borders_until(k, first).cast_unsigned());
+        borders.sum::<u32>() - 1
+    }
+
+    #[inline(always)]
+    fn is_down(&self, k: usize) -> bool {
+        self.down >> k & 1 == 1
+    }
+
+    fn crossing(&self, axis: usize, borders: i32) -> Crossing {
+        let at = match self.next[axis] {
+            f64::MAX => f64::MAX,
+            next => next + f64::from(borders - 1) * self.period[axis],
+        };
+        Crossing { axis, borders, at }
+    }
+
+    /// Borders of an axis crossed up to a crossing, itself included. At equal
+    /// distances z comes before y and y before x.
+    fn borders_until(&self, k: usize, until: Crossing) -> i32 {
+        if k == until.axis {
+            return until.borders;
+        }
+        let before = |at: f64| at < until.at || (at == until.at && k > until.axis);
+        if !before(self.next[k]) {
+            return 0;
+        }
+        let n = ((until.at - self.next[k]) / self.period[k]) as i32;
+        let n = n.saturating_add(1);
+        match (
+            before(self.crossing(k, n).at),
+            before(self.crossing(k, n.saturating_add(1)).at),
+        ) {
+            (false, _) => n - 1,
+            (_, true) => n + 1,
+            _ => n,
+        }
     }
 }
 
-impl Track {
-    /// Meets the voxels in order until one ends the walk by `false`.
-    #[inline(always)]
-    pub fn walk(self, mut meet: impl FnMut(Voxel) -> bool) {
-        let (mut at, [sx, sy, sz], [dx, dy, dz]) = (self.first, self.step, self.period);
-        let ([mut x, mut y, mut z], end) = (self.next, self.end);
-        // Branches on the axis: neighbouring rays repeat the pattern, so they are foretold.
-        while meet(Voxel(at as u32)) {
-            if x <= y {
-                if x <= z {
-                    if x > end {
-                        return;
-                    }
-                    (at, x) = (at.wrapping_add(sx), x + dx);
-                    continue;
-                }
-            } else if y <= z {
-                if y > end {
-                    return;
-                }
-                (at, y) = (at.wrapping_add(sy), y + dy);
-                continue;
-            }
-            if z > end {
-                return;
-            }
-            (at, z) = (at.wrapping_add(sz), z + dz);
-        }
-    }
+/// Steps from one voxel to another.
+fn distance(from: [i32; 3], to: [i32; 3]) -> u32 {
+    (0..3).map(|k| from[k].abs_diff(to[k])).sum()
 }

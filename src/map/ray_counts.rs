@@ -1,7 +1,7 @@
 //! Counts of voxels on rays: what information gain over an image is made of.
 
 use super::planning::PlanningGrid;
-use super::ray::Ray;
+use super::rays::Ray;
 
 /// What some rays met.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

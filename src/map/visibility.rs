@@ -7,7 +7,7 @@
 use super::clearance::Clearance;
 use super::grid::{Grid, Voxel};
 use super::line::Line;
-use super::ray::{Ray, Tracks};
+use super::rays::{Ray, Tracks};
 use super::walk::each;
 use crate::geometry::Point;
 

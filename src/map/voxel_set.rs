@@ -43,15 +43,6 @@ impl VoxelSet {
         )
     }
 
-    /// All voxels of the grid but those that bricks' bits name.
-    pub(super) fn without(layout: &Layout, size: [u32; 3], bits: impl Fn(usize) -> Bits) -> Self {
-        let rest = |brick: usize| {
-            let (all, gone) = (inside(layout.corner(brick), size), bits(brick));
-            (brick, std::array::from_fn(|w| all[w] & !gone[w]))
-        };
-        Self::of_bricks(layout, (0..layout.len()).map(rest))
-    }
-
     /// Number of voxels.
     pub fn len(&self) -> u64 {
         self.bricks().map(|brick| brick.len()).sum()
@@ -69,16 +60,6 @@ impl VoxelSet {
             words: bits,
         })
     }
-}
-
-/// The voxels of a brick that lie inside a grid.
-fn inside(corner: [usize; 3], size: [u32; 3]) -> Bits {
-    let left = [0, 1, 2].map(|k| (size[k] as usize - corner[k]).min(8));
-    if left == [8; 3] {
-        return [u64::MAX; WORDS];
-    }
-    let held = |word: usize, bit: usize| (0..3).all(|k| 4 * (word >> k & 1) + (bit >> (2 * k) & 3) < left[k]);
-    std::array::from_fn(|word| (0..64).fold(0, |bits, bit| bits | u64::from(held(word, bit)) << bit))
 }
 
 impl<'a> Cube<'a> {
