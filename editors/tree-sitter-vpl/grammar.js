@@ -139,6 +139,7 @@ module.exports = grammar({
         $.method,
         $.gain_floor,
         $.inspected,
+        $.visibility,
         $.verify,
         $.sensor_model,
       ),
@@ -153,6 +154,7 @@ module.exports = grammar({
     method: ($) => seq('method', $.name),
     gain_floor: ($) => seq('gain_floor', $._expression),
     inspected: ($) => seq('inspected', $.name),
+    visibility: ($) => seq('visibility', $.name),
     verify: ($) => seq('verify', $.name),
     sensor_model: ($) => seq('sensor_model', $.fields),
 

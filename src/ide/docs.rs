@@ -152,6 +152,10 @@ const WORDS: &[(&str, &str)] = &[
         "What counts as evidence about a predicted place: `observed`, or `near_point` alone.",
     ),
     (
+        "visibility",
+        "What hides a voxel: `exact` sight lines, or what is drawn at its `centre`, faster and coarser.",
+    ),
+    (
         "verify",
         "`all`: confident only when every predicted feature of the winning class was inspected.",
     ),
@@ -173,6 +177,11 @@ const CHOICES: &[(&str, &str)] = &[
     (
         "near_point",
         "A point was measured near the place; one that turns out empty is never ruled out.",
+    ),
+    ("exact", "A voxel is hidden where an occupied one lies on the line to the eye."),
+    (
+        "centre",
+        "A voxel is hidden where an occupied one is drawn nearer at its centre; errs towards hidden.",
     ),
     ("all", "Every predicted feature of the winning class."),
 ];
@@ -197,7 +206,7 @@ mod tests {
             let fields = vocabulary::fields(statement);
             assert!(fields.iter().all(|(f, _)| field(statement, f).is_some()), "{statement}");
         }
-        for statement in ["goal", "inspected", "verify"] {
+        for statement in ["goal", "inspected", "visibility", "verify"] {
             assert!(
                 vocabulary::words(statement).iter().all(|w| word(w).is_some()),
                 "{statement}"

@@ -74,6 +74,7 @@ pub fn words(statement: &str) -> &'static [&'static str] {
         "goal" => task::GOALS,
         "method" => task::METHODS,
         "inspected" => task::INSPECTED,
+        "visibility" => task::VISIBILITY,
         "verify" => task::VERIFY,
         _ => &[],
     }

@@ -38,6 +38,7 @@
   "method"
   "gain_floor"
   "inspected"
+  "visibility"
   "verify"
   "sensor_model"
   "backdrop"
@@ -111,6 +112,7 @@
 (goal (name) @constant.builtin)
 (method (name) @constant.builtin)
 (inspected (name) @constant.builtin)
+(visibility (name) @constant.builtin)
 (verify (name) @constant.builtin)
 (supposed state: (name) @keyword)
 (expect state: (name) @keyword)

@@ -60,6 +60,7 @@ const TURNS: &[(&str, Option<Type>)] = &[
     ("and", None),
     ("method", None),
     ("inspected", None),
+    ("visibility", None),
     ("verify", None),
     ("library", None),
     ("in", None),

@@ -82,6 +82,7 @@ const TASK: &[(&str, &str)] = &[
     ("method", "method $0"),
     ("gain_floor", "gain_floor ${1:5} voxels"),
     ("inspected", "inspected $0"),
+    ("visibility", "visibility $0"),
     ("verify", "verify all"),
     ("sensor_model", "sensor_model { hit: ${1:70 %}, miss: ${2:40 %} }"),
 ];

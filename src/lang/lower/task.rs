@@ -58,6 +58,7 @@ impl<'a> Lowering<'a> {
             limit: limit?,
             gain_floor: gain_floor?,
             inspected: task.inspected,
+            visibility: task.visibility,
             verify: task.verify,
             sensor_model: sensor_model?,
             place: self.place(task.span),

@@ -67,6 +67,7 @@ fn members(start: Rule) -> Option<&'static [Rule]> {
             Rule::kw_method,
             Rule::kw_gain_floor,
             Rule::kw_inspected,
+            Rule::kw_visibility,
             Rule::kw_verify,
             Rule::kw_sensor_model,
         ],
@@ -151,6 +152,7 @@ fn describe(expected: Rule) -> Option<(u8, String)> {
         | Rule::method
         | Rule::gain_floor
         | Rule::inspected
+        | Rule::visibility
         | Rule::verify
         | Rule::sensor_model
         | Rule::backdrop

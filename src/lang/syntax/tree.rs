@@ -234,6 +234,7 @@ pub enum TaskStatementKind {
     Method(Name),
     GainFloor(Expr),
     Inspected(Name),
+    Visibility(Name),
     Verify(Name),
     SensorModel(Vec<Field>),
 }
@@ -261,6 +262,7 @@ impl TaskStatementKind {
             Self::Method(_) => "method",
             Self::GainFloor(_) => "gain_floor",
             Self::Inspected(_) => "inspected",
+            Self::Visibility(_) => "visibility",
             Self::Verify(_) => "verify",
             Self::SensorModel(_) => "sensor_model",
         }

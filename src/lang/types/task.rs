@@ -14,7 +14,7 @@ use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, TaskStatementKind as Kind};
 use crate::primitives::Type;
-use crate::rules::{Goal, Inspected};
+use crate::rules::{Goal, Inspected, Visibility};
 
 /// The methods of choosing views.
 pub(in crate::lang) const METHODS: &[&str] = &[
@@ -26,6 +26,8 @@ const USUAL_METHOD: &str = "gn";
 pub(in crate::lang) const GOALS: &[&str] = &["confident", "exhausted"];
 /// When a feature counts as inspected.
 pub(in crate::lang) const INSPECTED: &[&str] = &["observed", "near_point"];
+/// How it is decided what hides a voxel.
+pub(in crate::lang) const VISIBILITY: &[&str] = &["exact", "centre"];
 /// What is verified.
 pub(in crate::lang) const VERIFY: &[&str] = &["all"];
 pub(in crate::lang) const THRESHOLDS: &[(&str, Type)] = &[
@@ -50,6 +52,7 @@ struct Draft {
     values: BTreeMap<&'static str, Expr>,
     method: Option<String>,
     inspected: Option<Inspected>,
+    visibility: Option<Visibility>,
     verify: bool,
     thresholds: BTreeMap<&'static str, Option<Expr>>,
     sensor_model: BTreeMap<&'static str, Option<Expr>>,
@@ -101,6 +104,15 @@ impl<'a> Checker<'a> {
                         Inspected::NearPoint
                     } else {
                         Inspected::Observed
+                    }
+                });
+            }
+            Kind::Visibility(name) => {
+                draft.visibility = self.one_of_words(name, "`visibility`", VISIBILITY).map(|word| {
+                    if word == "centre" {
+                        Visibility::Centre
+                    } else {
+                        Visibility::Exact
                     }
                 });
             }
@@ -353,6 +365,7 @@ fn assemble(task: &tree::Task, mut draft: Draft) -> Option<Task> {
         gain_floor: draft.values.remove("gain_floor"),
         method: draft.method.unwrap_or_else(|| USUAL_METHOD.to_owned()),
         inspected: draft.inspected.unwrap_or(Inspected::Observed),
+        visibility: draft.visibility.unwrap_or(Visibility::Exact),
         verify: draft.verify,
         sensor_model: (draft.sensor_model.into_iter())
             .filter_map(|(name, e)| Some((name, e?)))
