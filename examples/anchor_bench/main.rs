@@ -12,6 +12,7 @@
 mod files;
 mod insert;
 mod meter;
+mod views;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -24,7 +25,13 @@ use serde_json::Value;
 type Run = fn(&Arguments) -> Result<Vec<Value>, String>;
 
 /// Every job, one function in a file of its own.
-const JOBS: &[(&str, Run)] = &[("insert", insert::clouds), ("insert-depth", insert::depth)];
+const JOBS: &[(&str, Run)] = &[
+    ("insert", insert::clouds),
+    ("insert-depth", insert::depth),
+    ("gain", views::gain),
+    ("distinct", views::distinct),
+    ("first", views::first),
+];
 
 /// Measures the map on a file of posed clouds, depth images or a mesh.
 #[derive(Debug, Parser)]
@@ -43,6 +50,8 @@ struct Arguments {
     /// The first so many frames; 0 for all.
     #[arg(long, default_value_t = 0)]
     frames: usize,
+    #[command(flatten)]
+    images: views::Images,
 }
 
 impl Arguments {

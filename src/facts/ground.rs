@@ -1,7 +1,9 @@
 //! The task that a library is tried with: thresholds and space for its facts.
 
 use crate::geometry::{Bounds, Camera, DepthRange, Intrinsics, Point, Vector};
-use crate::rules::{Call, Fact, Given, Goal, Inspected, Library, Place, RuleSet, SensorModel, Space, Task, Thresholds, Visibility};
+use crate::rules::{
+    Call, Fact, Given, Goal, Inspected, Library, Place, RuleSet, SensorModel, Space, Task, Thresholds, Visibility,
+};
 
 /// ξ, ξ_ned and ξ_cfd where no task says: the paper's.
 const USUAL: Thresholds = Thresholds {

@@ -178,7 +178,10 @@ const CHOICES: &[(&str, &str)] = &[
         "near_point",
         "A point was measured near the place; one that turns out empty is never ruled out.",
     ),
-    ("exact", "A voxel is hidden where an occupied one lies on the line to the eye."),
+    (
+        "exact",
+        "A voxel is hidden where an occupied one lies on the line to the eye.",
+    ),
     (
         "centre",
         "A voxel is hidden where an occupied one is drawn nearer at its centre; errs towards hidden.",

@@ -27,12 +27,18 @@ impl<'a, W: World + ?Sized> LazyLook<'a, W> {
     /// What a view will see.
     pub fn of(world: &'a W, view: &'a Viewpoint, visibility: Visibility) -> Self {
         let look = OnceLock::new();
-        Self { world, view, visibility, look }
+        Self {
+            world,
+            view,
+            visibility,
+            look,
+        }
     }
 
     /// The look.
     pub fn get(&self) -> &Look<'a, W> {
-        self.look.get_or_init(|| Look::of(self.world, self.view, self.visibility))
+        self.look
+            .get_or_init(|| Look::of(self.world, self.view, self.visibility))
     }
 }
 

@@ -178,7 +178,14 @@ fn reached<W: World + ?Sized>(
     wanted: impl Fn(usize) -> bool,
 ) -> Vec<bool> {
     let (voxels, touched) = (&predicted.voxels, &predicted.touched);
-    reachable(look, voxels, touched, &predicted.envelope, knowledge.criteria.near, wanted)
+    reachable(
+        look,
+        voxels,
+        touched,
+        &predicted.envelope,
+        knowledge.criteria.near,
+        wanted,
+    )
 }
 
 /// G_so(v) after the gain floor: reachable rear-side voxels.

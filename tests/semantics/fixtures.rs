@@ -2,7 +2,8 @@
 
 use vpl::geometry::{Camera, DepthRange, Intrinsics, Point, Polygon, Vector};
 use vpl::rules::{
-    Call, Class, Each, Expr, Feature, FeatureId, FeatureKind, Goal, Inspected, Library, Place, Presence, Rule, SensorModel, Space, Task, Thresholds, Value, Visibility,
+    Call, Class, Each, Expr, Feature, FeatureId, FeatureKind, Goal, Inspected, Library, Place, Presence, Rule,
+    SensorModel, Space, Task, Thresholds, Value, Visibility,
 };
 
 pub fn call<const N: usize>(primitive: &str, arguments: [(&str, Expr); N]) -> Call {

@@ -8,7 +8,9 @@ use vpl::plan::features::Predicted;
 use vpl::plan::instances::Finding;
 use vpl::plan::methods::{self, Situation};
 use vpl::plan::score::{self, Gains};
-use vpl::plan::{Existence, Knowledge, Look, Proof, Proofs, Status, Targets, Trace, Viewpoint, World, predictions, reasoning};
+use vpl::plan::{
+    Existence, Knowledge, Look, Proof, Proofs, Status, Targets, Trace, Viewpoint, World, predictions, reasoning,
+};
 use vpl::primitives::Arguments;
 use vpl::rules::{BadArgument, FeatureId, Library, Rule, Task};
 

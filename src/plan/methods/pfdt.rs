@@ -27,7 +27,13 @@ impl Method for Pfdt {
         let asked = |id: &FeatureId| status.feature(*id).state == Existence::Unknown;
         let features = situation.knowledge.library.feature_ids().filter(asked);
         let places: Vec<(FeatureId, &Predicted)> = features
-            .flat_map(|id| status.feature(id).predicted.values().map(move |predicted| (id, predicted)))
+            .flat_map(|id| {
+                status
+                    .feature(id)
+                    .predicted
+                    .values()
+                    .map(move |predicted| (id, predicted))
+            })
             .collect();
         let shown = shown(situation, &places);
         let mut values = vec![0.0_f64; situation.gains.views.len()];
