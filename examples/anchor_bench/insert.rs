@@ -31,6 +31,11 @@ pub fn depth(arguments: &Arguments) -> Result<Vec<Value>, String> {
     )])
 }
 
+/// Posed clouds, a line.
+pub fn clouds(_: &Arguments) -> Result<Vec<Value>, String> {
+    Err("clouds cannot be inserted yet".to_owned())
+}
+
 /// An unknown space that holds everything between two corners.
 pub fn map_of((low, high): (Point, Point), voxel: f64) -> Result<Map, String> {
     let space = Space {
@@ -49,7 +54,7 @@ fn line(arguments: &Arguments, job: &str, map: &Map, frames: usize, points: usiz
         "mode": arguments.mode.as_deref().unwrap_or("exact"),
         "threads": arguments.threads,
         "res": arguments.res,
-        "data": arguments.file.file_stem().map(|stem| stem.to_string_lossy()),
+        "data": arguments.data(),
         "frames": frames,
         "points": points,
         "s": s,
