@@ -50,7 +50,11 @@ pub(in crate::sense) fn shade(seen: &Visibility, backdrop: Option<Backdrop>, wor
     let painter = Painter {
         seen,
         air: backdrop.map_or([0; 3], |b| b.colour),
-        bright: facets.all.par_iter().map(|f| light(&f.normal, world_from_camera)).collect(),
+        bright: facets
+            .all
+            .par_iter()
+            .map(|f| light(&f.normal, world_from_camera))
+            .collect(),
         facets,
     };
     let (width, height) = (seen.image.width, seen.image.height);

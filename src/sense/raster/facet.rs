@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::canvas::{Pixel, triangle};
 use super::{NOTHING, Visibility};
 use crate::geometry::{Point, Vector};
 
@@ -16,15 +17,17 @@ impl Facets {
     pub(super) fn of(seen: &Visibility) -> Self {
         let mut slot_of = vec![NOTHING; seen.mesh.triangles.len()];
         let mut shown = Vec::new();
-        let slot = |&triangle: &u32| {
-            let slot = slot_of.get_mut(triangle as usize)?;
+        let slot = |&pixel: &Pixel| {
+            let Some(slot) = slot_of.get_mut(triangle(pixel) as usize) else {
+                return NOTHING;
+            };
             if *slot == NOTHING {
                 *slot = shown.len() as u32;
-                shown.push(triangle);
+                shown.push(triangle(pixel));
             }
-            Some(*slot)
+            *slot
         };
-        let slots = seen.triangles.iter().map(slot).map(|s| s.unwrap_or(NOTHING)).collect();
+        let slots = seen.pixels.iter().map(slot).collect();
         let facet = |&triangle: &u32| {
             let corners = seen.mesh.corners(triangle as usize);
             Facet::new(triangle, corners.map(|p| seen.camera_from_world * p))
@@ -71,7 +74,11 @@ impl Facet {
             normal: normal.try_normalize(0.0).unwrap_or_else(Vector::z),
             edges: [edge(b, c), edge(c, a), edge(a, b)],
             // Seen from the edge, it is as far as its corners are.
-            plane: if offset == 0.0 { Vector::zeros() } else { normal / offset },
+            plane: if offset == 0.0 {
+                Vector::zeros()
+            } else {
+                normal / offset
+            },
             inverse: if near > 0.0 {
                 (1.0 / far, 1.0 / near)
             } else {

@@ -14,8 +14,8 @@ const ROUND: f64 = 6_755_399_441_055_744.0;
 
 /// The world as seen by one camera.
 ///
-/// The grid's origin is the centre of pixel (width / 2, height / 2). It is as
-/// fine as `REACH` allows: 2²⁰ steps a pixel at 640 columns.
+/// Pixels and the grid are counted from pixel (width / 2, height / 2), from its
+/// centre. The grid is as fine as `REACH` allows: 2²⁰ steps a pixel at 640 columns.
 pub(super) struct Screen {
     pub(super) width: u32,
     pub(super) height: u32,
@@ -37,9 +37,17 @@ pub(super) struct Corner {
     pub(super) outside: u32,
 }
 
+/// The pixels whose centres lie in a box: first column, first row, − last column,
+/// − last row. So the least of each of some boxes is the box around them. Whole,
+/// and yet floats: only of these does the baseline processor take four minima at once.
+pub(super) type Cells = [f32; 4];
+
+/// Cells of a corner that may lie anywhere.
+const ANYWHERE: Cells = [f32::NEG_INFINITY; 4];
+
 impl Screen {
     pub(super) fn new(image: &Intrinsics, camera_from_world: &Pose) -> Self {
-        let bits = 29 - image.width.max(image.height).max(1).ilog2().min(28);
+        let bits = 29 - image.width.max(image.height).max(1).ilog2().min(29);
         let step = f64::from(1_u32 << bits);
         let turned = camera_from_world.to_homogeneous();
         let axis = |focal: f64, principal: f64, middle: u32, row: usize| {
@@ -79,9 +87,58 @@ impl Screen {
         Corner {
             at: [x, y].map(|c| snap(c * inverse)),
             inverse: inverse as f32,
-            outside: (0..5).map(|k| u32::from(outside[k]) << k).sum(),
+            outside: bits(outside),
         }
     }
+
+    /// The pixels at a corner: one, if it falls on a centre, and otherwise none.
+    #[inline]
+    pub(super) fn cells(&self, corner: &Corner) -> Cells {
+        let up = |c: i32| ((c + ((1 << self.bits) - 1)) >> self.bits) as f32;
+        let [x, y] = corner.at;
+        if corner.outside == 0 {
+            [up(x), up(y), up(-x), up(-y)]
+        } else {
+            ANYWHERE
+        }
+    }
+
+    /// Column and row of the pixel that all others are counted from.
+    pub(super) fn middle(&self) -> [i64; 2] {
+        [self.width, self.height].map(|size| i64::from(size / 2))
+    }
+
+    /// The box of all pixels.
+    pub(super) fn image(&self) -> Cells {
+        let [x, y] = self.middle();
+        let [right, bottom] = [x + 1 - i64::from(self.width), y + 1 - i64::from(self.height)];
+        [-x, -y, right, bottom].map(|k| k as f32)
+    }
+}
+
+/// The smallest box around boxes.
+#[inline]
+pub(super) fn around([a, b, c]: [&Cells; 3]) -> Cells {
+    let least = |a: f32, b: f32| if a < b { a } else { b };
+    std::array::from_fn(|k| least(least(a[k], b[k]), c[k]))
+}
+
+/// Whether a box is that of something outside the view.
+#[inline]
+pub(super) fn anywhere(cells: &Cells) -> bool {
+    cells[0] == f32::NEG_INFINITY
+}
+
+/// What two boxes have in common.
+#[inline]
+pub(super) fn common(a: &Cells, b: &Cells) -> Cells {
+    std::array::from_fn(|k| if a[k] > b[k] { a[k] } else { b[k] })
+}
+
+/// Whether a box holds a pixel.
+#[inline]
+pub(super) fn holds_any([left, top, right, bottom]: Cells) -> bool {
+    (left + right <= 0.0) & (top + bottom <= 0.0)
 }
 
 impl Corner {
@@ -90,10 +147,20 @@ impl Corner {
         let inverse = 1.0 / z;
         Self {
             at: [x, y].map(|c| snap((c * inverse).clamp(-REACH, REACH))),
-            inverse: inverse as f32,
+            // Not a number where a corner of the mesh is infinitely far.
+            inverse: (inverse as f32).max(0.0),
             outside: 0,
         }
     }
+}
+
+#[inline]
+fn bits(flags: [bool; 5]) -> u32 {
+    let mut bits = 0;
+    for flag in flags {
+        bits = bits << 1 | u32::from(flag);
+    }
+    bits
 }
 
 /// The nearest whole number.
