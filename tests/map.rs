@@ -85,15 +85,24 @@ fn readings(o: &Observation) -> Vec<Point> {
     pixels.filter_map(|(u, v)| o.point(u, v)).collect()
 }
 
-/// State of every voxel after one frame, voxel by voxel.
+/// OctoMap's precision.
+fn rounded(p: Point) -> Point {
+    p.map(|c| f64::from(c as f32))
+}
+
+/// State of every voxel after one frame, voxel by voxel: a ray goes to the centre
+/// of each voxel with a reading.
 fn naive_frame(map: &Map, o: &Observation) -> Vec<Occupancy> {
-    let points = readings(o);
-    let ends: BTreeSet<_> = points.iter().filter_map(|p| map.grid().containing(p)).collect();
+    let grid = map.grid();
+    let ends: BTreeSet<_> = readings(o).iter().map(|p| grid.cell_of(p)).collect();
+    let centre = |cell: &[i64; 3]| Point::from([0, 1, 2].map(|k| grid.origin[k] + (cell[k] as f64 + 0.5) * VOXEL));
+    let rays: Vec<_> = ends.iter().map(|end| rounded(centre(end))).collect();
+    let eye = rounded(o.eye());
     let state = |v: Voxel| {
-        let cube = cube(map, v);
-        if ends.contains(&v) {
+        let (here, cube) = (grid.cell(v), cube(map, v));
+        if ends.contains(&here) {
             Occupancy::Occupied
-        } else if points.iter().any(|p| passes(&o.eye(), p, &cube)) {
+        } else if rays.iter().any(|end| passes(&eye, end, &cube)) {
             Occupancy::Free
         } else {
             Occupancy::Unknown

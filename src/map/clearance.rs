@@ -3,8 +3,9 @@
 //!
 //! Frozen at one state of the map; covers the box of occupied blocks only.
 
-use super::bricks::Bricks;
+use super::bricks::{Bricks, States};
 use super::layout::{Address, Layout, VOXELS};
+use super::log_odds::LogOdds;
 
 /// Entries below this are distances; from here on they index words.
 const FIRST_WORD: u32 = 256;
@@ -53,8 +54,8 @@ impl Axis {
 
 impl Clearance {
     /// The clearance of a map's bricks.
-    pub fn of(layout: &Layout, bricks: &Bricks) -> Self {
-        let words = occupied_words(layout, bricks);
+    pub fn of(layout: &Layout, bricks: &Bricks, model: &LogOdds) -> Self {
+        let words = occupied_words(layout, bricks, model);
         let Some((low, size)) = block_box(&words) else {
             return Self::default();
         };
@@ -162,15 +163,15 @@ impl Clearance {
 }
 
 /// Blocks with occupied voxels and their bits.
-fn occupied_words(layout: &Layout, bricks: &Bricks) -> Vec<([i32; 3], u64)> {
-    let of_brick = |brick: &super::brick::Brick| {
+fn occupied_words(layout: &Layout, bricks: &Bricks, model: &LogOdds) -> Vec<([i32; 3], u64)> {
+    let of_brick = |brick: States| {
         let words = brick.occupied.into_iter().enumerate().filter(|w| w.1 != 0);
         let base = brick.index * VOXELS;
         words
             .map(move |(i, word)| (Address(base + i * 64), word))
             .collect::<Vec<_>>()
     };
-    let words = bricks.iter().flat_map(of_brick);
+    let words = bricks.states(model).flat_map(of_brick);
     words
         .map(|(at, word)| (layout.cell(at).map(|c| c as i32 / 4), word))
         .collect()

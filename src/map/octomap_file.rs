@@ -104,7 +104,8 @@ impl Tree<'_> {
     }
 
     fn no_brick_at(&self, layout: &Layout, cell: [usize; 3]) -> bool {
-        self.map.bricks.get(layout.address(cell).brick()).is_none()
+        let brick = layout.address(cell).brick();
+        self.map.bricks.states_of(brick, &self.map.model).is_none()
     }
 }
 
