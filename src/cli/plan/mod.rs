@@ -61,6 +61,9 @@ pub(crate) struct Plan {
     /// Write the run log (JSON Lines); `-` is standard output.
     #[arg(long, value_name = "RUN.jsonl")]
     log: Option<PathBuf>,
+    /// Write a page that shows the run (HTML, opens offline); `-` is standard output.
+    #[arg(long, value_name = "RUN.html")]
+    report: Option<PathBuf>,
     /// Write the map as an OctoMap file; `-` is standard output.
     #[arg(long, value_name = "OUT.bt")]
     map: Option<PathBuf>,
@@ -145,8 +148,14 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
         None => Vec::new(),
     };
     // Before the first view: a run is not lost to a wrong path.
-    options.map.as_deref().map_or(Ok(()), record::writable)?;
-    let mut recorder = Recorder::begin(options.log.as_deref(), head, logged.len())?;
+    for path in [&options.map, &options.report].into_iter().flatten() {
+        record::writable(path)?;
+    }
+    let report_page = options
+        .report
+        .is_some()
+        .then(|| show::Report::begin(head.clone(), &session));
+    let mut recorder = Recorder::begin(options.log.as_deref(), report_page, head, logged.len())?;
     let end = drive(&mut session, &stage, noise, options.seed, start, &logged, &mut recorder)?;
     let mut summary = show::summary(recorder.records(), &stage.name);
     summary += &options.log.as_deref().map_or(String::new(), why_line);
@@ -157,6 +166,9 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
     }
     if let Some(path) = &options.map {
         record::write_map(path, session.map())?;
+    }
+    if let Some(path) = &options.report {
+        recorder.write_report(path)?;
     }
     Ok(if end == plan::Outcome::Goal {
         Outcome::Done
@@ -199,7 +211,7 @@ fn drive(
             return Err(Failure::Run("the run has no end".into()));
         };
         coverage.observe(&step.observation);
-        recorder.view(&step)?;
+        recorder.view(turn.session(), &step)?;
         resume::agrees(logged, &step)?;
         if let Decision::End(end) = &step.decision {
             recorder.end(end, coverage.share())?;

@@ -8,39 +8,43 @@ use super::record::is_stdout;
 use crate::cli::Failure;
 use crate::cli::files::STDIN;
 
-/// Refuses a log or a map that would take the place of the program, of the
-/// object's mesh or of one another. A log may replace the log that it resumes.
+/// Refuses a result that would take the place of the program, of the object's
+/// mesh or of another result. A log may replace the log that it resumes.
 ///
 /// # Errors
 /// A usage failure that names the option and the file.
 pub(super) fn check(options: &Plan) -> Result<(), Failure> {
-    let (log, map) = (options.log.as_deref(), options.map.as_deref());
     let program = Some(Path::new(&options.file)).filter(|file| *file != Path::new(STDIN));
     let object = options.object.as_deref().map(Path::new);
-    let resumed = options.resume.as_deref();
-    for (option, out, other) in [
-        ("--log", log, program),
-        ("--log", log, object),
-        ("--map", map, program),
-        ("--map", map, object),
-        ("--map", map, resumed),
-        ("--map", map, log),
-    ] {
-        if let (Some(out), Some(other)) = (out, other)
-            && same(out, other)
-        {
-            let (out, other) = (out.display(), other.display());
-            return Err(Failure::Usage(format!(
-                "`{option} {out}` would overwrite `{other}`; name another file"
-            )));
+    let outs = [
+        ("--log", options.log.as_deref()),
+        ("--map", options.map.as_deref()),
+        ("--report", options.report.as_deref()),
+    ];
+    for (k, (option, out)) in outs.iter().enumerate() {
+        let resumed = options.resume.as_deref().filter(|_| *option != "--log");
+        let before = outs[..k].iter().map(|(_, other)| *other);
+        for other in [program, object, resumed].into_iter().chain(before) {
+            refuse_same(option, *out, other)?;
         }
     }
     Ok(())
 }
 
-/// Whether the log or the map goes to standard output, where nothing else then may.
+fn refuse_same(option: &str, out: Option<&Path>, other: Option<&Path>) -> Result<(), Failure> {
+    match (out, other) {
+        (Some(out), Some(other)) if same(out, other) => Err(Failure::Usage(format!(
+            "`{option} {}` would overwrite `{}`; name another file",
+            out.display(),
+            other.display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Whether a result goes to standard output, where nothing else then may.
 pub(super) fn use_stdout(options: &Plan) -> bool {
-    [&options.log, &options.map]
+    [&options.log, &options.map, &options.report]
         .into_iter()
         .any(|out| out.as_deref().is_some_and(is_stdout))
 }
