@@ -12,7 +12,7 @@ mod frame;
 mod grid;
 mod layout;
 mod log_odds;
-mod octomap_file;
+pub mod octomap;
 mod points;
 mod rear_side;
 mod tags;
@@ -20,7 +20,7 @@ mod visibility;
 mod walk;
 
 pub use grid::{Grid, Voxel};
-pub use octomap_file::write_bt;
+pub use octomap::{OctoMap, write_bt, write_ot};
 pub use tags::Tag;
 pub use visibility::{Sight, Visibility};
 
@@ -206,6 +206,11 @@ impl Map {
     /// Occupied voxels, ascending.
     pub fn occupied(&self) -> Vec<Voxel> {
         self.voxels_where(|b| b.occupied)
+    }
+
+    /// Free and occupied voxels, ascending.
+    pub fn measured(&self) -> Vec<Voxel> {
+        self.voxels_where(|b| b.known)
     }
 
     /// Pre-occupied voxels, ascending.
