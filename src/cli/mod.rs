@@ -6,9 +6,12 @@ mod completions;
 mod explain;
 mod files;
 mod fmt;
+mod inspect;
 mod lsp;
 mod new;
+mod output;
 mod plan;
+mod recording;
 mod test;
 mod why;
 
@@ -39,6 +42,7 @@ enum Verb {
     Fmt(fmt::Fmt),
     Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
+    Inspect(inspect::Inspect),
     Test(test::Test),
     Why(why::Why),
     Completions(completions::Completions),
@@ -70,6 +74,12 @@ pub(crate) enum Failure {
     /// A layout would not have been the same program.
     #[error("error[{code}]: {0} is left as it is: laid out it would be another program", code = Code::E0604)]
     Layout(String),
+    /// Recorded frames cannot be used.
+    #[error("error[{code}]: {0}", code = Code::E0611)]
+    Recording(String),
+    /// A file is no OctoMap tree.
+    #[error("error[{code}]: {0} cannot be read as an OctoMap file: {1}", code = Code::E0612)]
+    OctoMap(String, String),
     /// A run log cannot be read.
     #[error("error[{code}]: {0} cannot be read: {1}", code = Code::E0711)]
     Log(String, String),
@@ -111,6 +121,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Fmt(fmt) => fmt::run(&fmt),
         Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Inspect(inspect) => inspect::run(&inspect),
         Verb::Test(test) => test::run(&test),
         Verb::Why(why) => why::run(&why),
         Verb::Completions(completions) => completions::run(&completions),

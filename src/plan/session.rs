@@ -21,7 +21,7 @@ use super::status::Status;
 use super::trace::{Proof, Trace};
 use super::viewpoint::Viewpoint;
 use crate::detect::{self, Condition, Scan};
-use crate::geometry::{Point, Pose};
+use crate::geometry::{Camera, Point, Pose};
 use crate::map::{Map, Tag};
 use crate::primitives::{Arguments, poses};
 use crate::rules::{BadArgument, Library, Rule, RuleSet, Task};
@@ -36,6 +36,9 @@ pub struct Options {
     pub seed: u64,
     /// Most measurements; the task's where `None`.
     pub limit: Option<u32>,
+    /// Candidate views, each with its camera and `world_from_camera`; the task's
+    /// where `None`.
+    pub views: Option<Vec<(Camera, Pose)>>,
 }
 
 /// The parts of taking in a measurement.
@@ -80,20 +83,24 @@ impl Session {
     pub fn new(rules: &RuleSet, task: &str, options: Options) -> Result<Self, PlanError> {
         let knowledge = Knowledge::new(rules, task)?;
         let task = &knowledge.task;
-        let poses = poses(&task.views, &task.space).map_err(|source| PlanError::Views {
-            task: task.name.clone(),
-            source,
-        })?;
-        if poses.is_empty() {
+        let views = match options.views {
+            Some(views) => views,
+            None => candidates(task)?,
+        };
+        if views.is_empty() {
             return Err(PlanError::NoViews(task.name.clone()));
         }
+        let poses: Vec<Pose> = views.iter().map(|(_, pose)| *pose).collect();
         let start = start_of(options.seed, poses.len());
         Ok(Self {
             method: methods::method(options.method.as_deref().unwrap_or(&task.method))?,
             random: Pcg64::new(u128::from(options.seed), METHOD_STREAM),
             seed: options.seed,
             limit: options.limit.unwrap_or(task.limit),
-            candidates: poses.iter().map(|pose| Viewpoint::new(task.camera, pose)).collect(),
+            candidates: views
+                .iter()
+                .map(|(camera, pose)| Viewpoint::new(*camera, pose))
+                .collect(),
             visited: vec![false; poses.len()],
             map: Map::new(&task.space, task.sensor_model)?,
             status: Status::new(&knowledge),
@@ -299,6 +306,15 @@ impl Session {
             runners_up: choice.rivals.iter().map(standing).collect(),
         })
     }
+}
+
+/// S_v of a task.
+fn candidates(task: &Task) -> Result<Vec<(Camera, Pose)>, PlanError> {
+    let poses = poses(&task.views, &task.space).map_err(|source| PlanError::Views {
+        task: task.name.clone(),
+        source,
+    })?;
+    Ok(poses.into_iter().map(|pose| (task.camera, pose)).collect())
 }
 
 /// The start view: a stream of its own, so that it depends on nothing but the

@@ -3,8 +3,10 @@
 //! Turns updates and decisions into records and text. It writes nothing itself.
 
 mod configuration;
+pub mod export;
 mod lines;
 pub mod log;
+pub mod recording;
 mod report;
 pub mod why;
 

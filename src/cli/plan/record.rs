@@ -1,14 +1,14 @@
-//! What a run leaves: the log, a line a view, the map, a page.
+//! What a run leaves: the log, a line a view, the map.
 
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter, Write};
+use std::fs::File;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::cli::output::{is_stdout, quoted, writable};
 use crate::cli::{Failure, report};
-use crate::map::{Map, write_bt};
 use crate::plan::{End, Part, Phase, Session, Step};
 use crate::show::log::{self, Milliseconds, Record};
 use crate::show::{Report, view_line};
@@ -102,17 +102,13 @@ impl Recorder {
         self.write(Record::End(log::End::of(end, views as u32, coverage)))
     }
 
-    /// Writes the page that shows the run.
-    pub fn write_report(&self, path: &Path) -> Result<(), Failure> {
+    /// The page that shows the run, where one is asked for.
+    pub fn page(&self) -> Option<String> {
         let end = self.records.iter().rev().find_map(|r| match r {
             Record::End(end) => Some(end),
             _ => None,
         });
-        let Some(page) = &self.page else { return Ok(()) };
-        let (mut out, name) = create(path)?;
-        out.write_all(page.page(end).as_bytes())
-            .and_then(|()| out.flush())
-            .map_err(|error| Failure::Write(name, error))
+        self.page.as_ref().map(|page| page.page(end))
     }
 
     /// One write a line, so that an interrupted run leaves whole lines.
@@ -177,29 +173,6 @@ impl Log {
     }
 }
 
-/// Writes the map as an OctoMap binary tree.
-pub(super) fn write_map(path: &Path, map: &Map) -> Result<(), Failure> {
-    let (out, name) = create(path)?;
-    let mut out = BufWriter::new(out);
-    write_bt(map, &mut out)
-        .and_then(|()| out.flush())
-        .map_err(|error| Failure::Write(name, error))
-}
-
-/// Whether a file can be written; what it holds is kept.
-pub(super) fn writable(path: &Path) -> Result<(), Failure> {
-    if is_stdout(path) {
-        return Ok(());
-    }
-    let opened = OpenOptions::new().append(true).create(true).open(path);
-    opened.map(drop).map_err(|error| Failure::Write(quoted(path), error))
-}
-
-/// Whether a path is `-`, standard output.
-pub(super) fn is_stdout(path: &Path) -> bool {
-    path == Path::new("-")
-}
-
 fn create(path: &Path) -> Result<(Box<dyn Write>, String), Failure> {
     if is_stdout(path) {
         return Ok((Box::new(io::stdout()), "standard output".into()));
@@ -208,8 +181,4 @@ fn create(path: &Path) -> Result<(Box<dyn Write>, String), Failure> {
         Ok(file) => Ok((Box::new(file), quoted(path))),
         Err(error) => Err(Failure::Write(quoted(path), error)),
     }
-}
-
-fn quoted(path: &Path) -> String {
-    format!("`{}`", path.display())
 }
