@@ -9,6 +9,7 @@ mod fmt;
 mod lsp;
 mod new;
 mod plan;
+mod study;
 mod test;
 mod why;
 
@@ -39,6 +40,7 @@ enum Verb {
     Fmt(fmt::Fmt),
     Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
+    Study(study::Study),
     Test(test::Test),
     Why(why::Why),
     Completions(completions::Completions),
@@ -70,6 +72,9 @@ pub(crate) enum Failure {
     /// A layout would not have been the same program.
     #[error("error[{code}]: {0} is left as it is: laid out it would be another program", code = Code::E0604)]
     Layout(String),
+    /// A folder holds something else than the study's rows.
+    #[error("error[{code}]: {0}", code = Code::E0605)]
+    Folder(String),
     /// A run log cannot be read.
     #[error("error[{code}]: {0} cannot be read: {1}", code = Code::E0711)]
     Log(String, String),
@@ -111,6 +116,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Fmt(fmt) => fmt::run(&fmt),
         Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Study(study) => study::run(&study),
         Verb::Test(test) => test::run(&test),
         Verb::Why(why) => why::run(&why),
         Verb::Completions(completions) => completions::run(&completions),

@@ -8,10 +8,10 @@ use super::diagnostics::{self, Diagnostic, Severity};
 use super::index::Index;
 use super::names::{self, Program};
 use super::source::{FileId, SourceMap};
+use super::studies::{self, Studied};
 use super::syntax::tree;
 use super::types::{self, typed};
 use super::world::World;
-use super::studies::{self, Studied};
 use super::{checks, lower};
 use crate::rules::{Fact, RuleSet, Study};
 

@@ -23,7 +23,12 @@ pub(super) fn programs(
     world: &dyn World,
     found: &mut Vec<Diagnostic>,
 ) -> Vec<Option<Studied>> {
-    let one = |study: &Study| study.program.as_ref().and_then(|path| program(path, main, world, found));
+    let one = |study: &Study| {
+        study
+            .program
+            .as_ref()
+            .and_then(|path| program(path, main, world, found))
+    };
     studies.iter().map(one).collect()
 }
 

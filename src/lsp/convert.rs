@@ -197,7 +197,7 @@ fn symbol_kind(kind: ide::SymbolKind) -> SymbolKind {
         ide::SymbolKind::Rule => SymbolKind::Event,
         ide::SymbolKind::Layout | ide::SymbolKind::Task | ide::SymbolKind::Scene | ide::SymbolKind::Study => {
             SymbolKind::Struct
-        },
+        }
         ide::SymbolKind::Object => SymbolKind::Object,
         ide::SymbolKind::Test => SymbolKind::Method,
     }

@@ -22,8 +22,8 @@ pub(super) use task::TaskSpans;
 use super::diagnostics::Diagnostic;
 use super::names::Program;
 use super::source::{SourceMap, Span};
-use super::types::typed;
 use super::studies::Studied;
+use super::types::typed;
 use crate::rules::{FORMAT, Fact, Library, Place, RuleSet, Study};
 
 /// The rule set as far as the program is right, with spans for the task checks.

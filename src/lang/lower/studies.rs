@@ -33,7 +33,10 @@ impl<'a> Lowering<'a> {
     }
 
     fn study(&mut self, study: &'a TypedStudy, own: &RuleSet, program: Option<&Studied>) -> Option<Study> {
-        let main = self.sources.get(crate::lang::FileId(0)).map_or("", |f| f.display.as_str());
+        let main = self
+            .sources
+            .get(crate::lang::FileId(0))
+            .map_or("", |f| f.display.as_str());
         let here = folder(main).to_owned();
         let (rules, mut shown): (&RuleSet, Shown<'_>) = match (&study.program, program) {
             (None, _) => (own, objects(own, &here)),
@@ -51,7 +54,10 @@ impl<'a> Lowering<'a> {
         let starts = self.counted(study.starts.as_ref(), USUAL_STARTS, "`starts`");
         let seeds = self.counted(study.seeds.as_ref(), 1, "`seeds`");
         let variants = self.variants(study);
-        let published = study.published.as_ref().map(|path| normal(&format!("{here}{}", path.text)));
+        let published = study
+            .published
+            .as_ref()
+            .map(|path| normal(&format!("{here}{}", path.text)));
         Some(Study {
             name: study.name.clone(),
             rules: rules.clone(),
@@ -91,7 +97,12 @@ impl<'a> Lowering<'a> {
 
     fn subjects(&mut self, study: &'a TypedStudy, shown: &Shown<'_>, here: &str) -> Option<Vec<Subject>> {
         let out: Option<Vec<Subject>> = match &study.objects {
-            None => Some(shown.iter().map(|(scene, object, folder)| subject(scene, object, folder)).collect()),
+            None => Some(
+                shown
+                    .iter()
+                    .map(|(scene, object, folder)| subject(scene, object, folder))
+                    .collect(),
+            ),
             Some(objects) => {
                 let found: Vec<Option<Subject>> = objects
                     .iter()

@@ -192,9 +192,8 @@ impl Loader<'_> {
 
 /// What is wrong with a path that should be relative to the file that names it.
 pub(in crate::lang) fn refused_path(path: &tree::Name) -> Option<Diagnostic> {
-    let refuse = |help: &str| {
-        Diagnostic::new(Code::E0111, path.span, format!("`{}` is no relative path", path.text)).help(help)
-    };
+    let refuse =
+        |help: &str| Diagnostic::new(Code::E0111, path.span, format!("`{}` is no relative path", path.text)).help(help);
     if path.text.contains('\\') {
         return Some(refuse("separate folders with `/`"));
     }

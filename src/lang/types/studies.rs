@@ -155,11 +155,13 @@ impl<'a> Checker<'a> {
                     ty: Type::Shape,
                     what: "an object",
                 };
-                self.check(object, due, Scope::of(self.program.main())).map(Object::Mesh)
+                self.check(object, due, Scope::of(self.program.main()))
+                    .map(Object::Mesh)
             }
             _ => {
                 let message = "an object of a study is a name, or a mesh by its file";
-                let help = "declare it as an `object` of a `scene` in this file, or write `mesh(file: …, units: mm, up: z)`";
+                let help =
+                    "declare it as an `object` of a `scene` in this file, or write `mesh(file: …, units: mm, up: z)`";
                 self.report(Diagnostic::new(Code::E0301, object.span, message).help(help));
                 None
             }

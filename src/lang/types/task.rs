@@ -242,7 +242,12 @@ impl<'a> Checker<'a> {
         });
     }
 
-    pub(super) fn one_of_words(&mut self, name: &tree::Name, what: &str, words: &[&'static str]) -> Option<&'static str> {
+    pub(super) fn one_of_words(
+        &mut self,
+        name: &tree::Name,
+        what: &str,
+        words: &[&'static str],
+    ) -> Option<&'static str> {
         let found = words.iter().find(|w| **w == name.text).copied();
         match found {
             Some(word) => self.names.uses(name.span, Entity::Word(word)),
