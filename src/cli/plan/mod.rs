@@ -172,7 +172,10 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
         None => Vec::new(),
     };
     outputs::writable(options)?;
-    let page = options.report.is_some().then(|| show::Report::begin(head.clone(), &session));
+    let page = options
+        .report
+        .is_some()
+        .then(|| show::Report::begin(head.clone(), &session));
     let mut recorder = Recorder::begin(options.log.as_deref(), page, head, logged.len())?;
     let drive = Drive {
         noise,
