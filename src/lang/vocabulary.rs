@@ -75,6 +75,7 @@ pub fn words(statement: &str) -> &'static [&'static str] {
         "method" => task::METHODS,
         "inspected" => task::INSPECTED,
         "verify" => task::VERIFY,
+        "insertion" => task::INSERTION,
         _ => &[],
     }
 }

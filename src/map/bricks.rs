@@ -9,8 +9,8 @@ use super::log_odds::{LogOdds, UNKNOWN};
 use super::marks::{Marked, Marks};
 use super::table::{Entry, Table};
 
-/// Chunks of marks that are applied together, so that threads have enough to do.
-const BATCH: usize = 16;
+/// Chunks of marks that are applied together, a thread.
+const BATCH: usize = 2;
 
 /// All bricks of a layout.
 #[derive(Clone, Debug)]
@@ -101,13 +101,18 @@ impl Bricks {
     /// Ends a frame: every voxel that was marked changes once.
     pub fn apply(&mut self, marks: Marks, layout: &Layout, model: &LogOdds) {
         let mut chunks = marks.into_chunks();
+        let (mut batch, most) = (Vec::new(), BATCH * rayon::current_num_threads());
         loop {
-            let mut batch: Vec<_> = chunks.by_ref().take(BATCH).flatten().map(|m| self.take(m)).collect();
+            for chunk in chunks.by_ref().take(most) {
+                batch.reserve(chunk.len());
+                batch.extend(chunk.into_iter().map(|marked| self.take(marked)));
+            }
             if batch.is_empty() {
                 return;
             }
-            batch.par_iter_mut().with_min_len(64).for_each(|due| due.apply(layout, model));
-            batch.into_iter().for_each(|due| self.put(due));
+            let parts = batch.par_iter_mut().with_min_len(64);
+            parts.for_each(|due| due.apply(layout, model));
+            batch.drain(..).for_each(|due| self.put(due));
         }
     }
 
@@ -116,7 +121,11 @@ impl Bricks {
             Entry::Slot(slot) => self.slots.get_mut(slot).and_then(Option::take),
             _ => None,
         };
-        Due { entry: marked.before, marked, brick }
+        Due {
+            entry: marked.before,
+            marked,
+            brick,
+        }
     }
 
     fn put(&mut self, due: Due) {
@@ -162,7 +171,10 @@ impl Bricks {
             Entry::Tile(value) => ([value; VOXELS], None),
             _ => {
                 let brick = self.get(index);
-                (brick.map_or([UNKNOWN; VOXELS], values), brick.and_then(|b| b.surface.as_deref()))
+                (
+                    brick.map_or([UNKNOWN; VOXELS], values),
+                    brick.and_then(|b| b.surface.as_deref()),
+                )
             }
         }
     }
@@ -184,7 +196,12 @@ struct Due {
 
 impl Due {
     fn apply(&mut self, layout: &Layout, model: &LogOdds) {
-        let Marked { brick: index, hits, misses, .. } = &mut self.marked;
+        let Marked {
+            brick: index,
+            hits,
+            misses,
+            ..
+        } = &mut self.marked;
         let inside = layout.inside(*index);
         (0..WORDS).for_each(|w| misses[w] &= inside[w]);
         let (no_hits, all_missed) = (*hits == [0; WORDS], *misses == [u64::MAX; WORDS]);

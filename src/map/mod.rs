@@ -122,7 +122,10 @@ impl Map {
     /// empty, and a measured voxel takes about a byte.
     #[must_use]
     pub fn of_occupancy_alone(self) -> Self {
-        Self { surfaces: false, ..self }
+        Self {
+            surfaces: false,
+            ..self
+        }
     }
 
     /// Inserts a measurement by exact rays: that of [`Map::insert_cloud`] with
@@ -285,7 +288,9 @@ impl Map {
 
     /// What can be seen of the space as it is now.
     pub fn visibility(&self) -> Visibility<'_> {
-        let clearance = self.clearance.get_or_init(|| Clearance::of(&self.layout, &self.bricks, &self.model));
+        let clearance = self
+            .clearance
+            .get_or_init(|| Clearance::of(&self.layout, &self.bricks, &self.model));
         Visibility::new(self.grid, clearance)
     }
 
@@ -312,7 +317,10 @@ impl Map {
 
     fn preoccupied_bits(&self) -> impl Iterator<Item = (usize, Bits)> {
         self.tags.bricks().map(|(brick, tagged)| {
-            let known = self.bricks.states_of(brick, &self.model).map_or([0; layout::WORDS], |b| b.known);
+            let known = self
+                .bricks
+                .states_of(brick, &self.model)
+                .map_or([0; layout::WORDS], |b| b.known);
             (brick, std::array::from_fn(|w| tagged[w] & !known[w]))
         })
     }

@@ -61,6 +61,7 @@ const TURNS: &[(&str, Option<Type>)] = &[
     ("method", None),
     ("inspected", None),
     ("verify", None),
+    ("insertion", None),
     ("library", None),
     ("in", None),
     ("for", None),

@@ -235,6 +235,7 @@ pub enum TaskStatementKind {
     GainFloor(Expr),
     Inspected(Name),
     Verify(Name),
+    Insertion(Name),
     SensorModel(Vec<Field>),
 }
 
@@ -262,6 +263,7 @@ impl TaskStatementKind {
             Self::GainFloor(_) => "gain_floor",
             Self::Inspected(_) => "inspected",
             Self::Verify(_) => "verify",
+            Self::Insertion(_) => "insertion",
             Self::SensorModel(_) => "sensor_model",
         }
     }
