@@ -140,6 +140,7 @@ module.exports = grammar({
         $.gain_floor,
         $.inspected,
         $.verify,
+        $.insertion,
         $.sensor_model,
       ),
     library_of: ($) => seq('library', $.name),
@@ -154,6 +155,7 @@ module.exports = grammar({
     gain_floor: ($) => seq('gain_floor', $._expression),
     inspected: ($) => seq('inspected', $.name),
     verify: ($) => seq('verify', $.name),
+    insertion: ($) => seq('insertion', $.name),
     sensor_model: ($) => seq('sensor_model', $.fields),
 
     fields: ($) => braced_list($, $.field),

@@ -76,6 +76,7 @@ pub fn words(statement: &str) -> &'static [&'static str] {
         "noise" => studies::NOISES,
         "inspected" => task::INSPECTED,
         "verify" => task::VERIFY,
+        "insertion" => task::INSERTION,
         _ => &[],
     }
 }

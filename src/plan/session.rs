@@ -24,7 +24,7 @@ use crate::detect::{self, Condition, Scan};
 use crate::geometry::{Camera, Point, Pose};
 use crate::map::{Map, Tag};
 use crate::primitives::{Arguments, poses};
-use crate::rules::{BadArgument, Library, Rule, RuleSet, Task};
+use crate::rules::{BadArgument, Insertion, Library, Rule, RuleSet, Task};
 use crate::sense::Observation;
 
 /// How a run differs from what its task says.
@@ -182,7 +182,10 @@ impl Session {
         ended: &mut dyn FnMut(Phase),
     ) -> Result<Update, PlanError> {
         self.check(view, observation)?;
-        let points = self.map.insert(observation);
+        let points = match self.task().insertion {
+            Insertion::Exact => self.map.insert(observation),
+            Insertion::Projective => self.map.insert_projected(observation),
+        };
         self.visited[view] = true;
         let pose = &observation.world_from_camera;
         self.status.visited.push(Viewpoint::new(observation.camera, pose));

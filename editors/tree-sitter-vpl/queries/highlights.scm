@@ -39,6 +39,7 @@
   "gain_floor"
   "inspected"
   "verify"
+  "insertion"
   "sensor_model"
   "backdrop"
   "object"
@@ -112,6 +113,7 @@
 (method (name) @constant.builtin)
 (inspected (name) @constant.builtin)
 (verify (name) @constant.builtin)
+(insertion (name) @constant.builtin)
 (supposed state: (name) @keyword)
 (expect state: (name) @keyword)
 

@@ -70,6 +70,7 @@ const TURNS: &[(&str, Option<Type>)] = &[
     ("method", None),
     ("inspected", None),
     ("verify", None),
+    ("insertion", None),
     ("library", None),
     ("in", None),
     ("for", None),

@@ -102,6 +102,7 @@ const TASK: &[(&str, &str)] = &[
     ("gain_floor", "gain_floor ${1:5} voxels"),
     ("inspected", "inspected $0"),
     ("verify", "verify all"),
+    ("insertion", "insertion $0"),
     ("sensor_model", "sensor_model { hit: ${1:70 %}, miss: ${2:40 %} }"),
 ];
 const TEST: &[(&str, &str)] = &[

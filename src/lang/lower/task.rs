@@ -59,6 +59,7 @@ impl<'a> Lowering<'a> {
             gain_floor: gain_floor?,
             inspected: task.inspected,
             verify: task.verify,
+            insertion: task.insertion,
             sensor_model: sensor_model?,
             place: self.place(task.span),
         };

@@ -69,6 +69,7 @@ fn members(start: Rule) -> Option<&'static [Rule]> {
             Rule::kw_gain_floor,
             Rule::kw_inspected,
             Rule::kw_verify,
+            Rule::kw_insertion,
             Rule::kw_sensor_model,
         ],
         Rule::scene_statement_only => &[Rule::kw_backdrop, Rule::kw_object],
@@ -171,6 +172,7 @@ fn describe(expected: Rule) -> Option<(u8, String)> {
         | Rule::gain_floor
         | Rule::inspected
         | Rule::verify
+        | Rule::insertion
         | Rule::sensor_model
         | Rule::backdrop
         | Rule::object

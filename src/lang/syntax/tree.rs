@@ -236,6 +236,7 @@ pub enum TaskStatementKind {
     GainFloor(Expr),
     Inspected(Name),
     Verify(Name),
+    Insertion(Name),
     SensorModel(Vec<Field>),
 }
 
@@ -263,6 +264,7 @@ impl TaskStatementKind {
             Self::GainFloor(_) => "gain_floor",
             Self::Inspected(_) => "inspected",
             Self::Verify(_) => "verify",
+            Self::Insertion(_) => "insertion",
             Self::SensorModel(_) => "sensor_model",
         }
     }

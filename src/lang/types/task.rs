@@ -14,7 +14,7 @@ use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, TaskStatementKind as Kind};
 use crate::primitives::Type;
-use crate::rules::{Goal, Inspected};
+use crate::rules::{Goal, Insertion, Inspected};
 
 /// The methods of choosing views.
 pub(in crate::lang) const METHODS: &[&str] = &[
@@ -26,6 +26,8 @@ const USUAL_METHOD: &str = "gn";
 pub(in crate::lang) const GOALS: &[&str] = &["confident", "exhausted"];
 /// When a feature counts as inspected.
 pub(in crate::lang) const INSPECTED: &[&str] = &["observed", "near_point"];
+/// How measurements enter the map.
+pub(in crate::lang) const INSERTION: &[&str] = &["exact", "projective"];
 /// What is verified.
 pub(in crate::lang) const VERIFY: &[&str] = &["all"];
 pub(in crate::lang) const THRESHOLDS: &[(&str, Type)] = &[
@@ -51,6 +53,7 @@ pub(super) struct Draft {
     method: Option<String>,
     pub(super) inspected: Option<Inspected>,
     pub(super) verify: bool,
+    insertion: Option<Insertion>,
     pub(super) thresholds: BTreeMap<&'static str, Option<Expr>>,
     pub(super) sensor_model: BTreeMap<&'static str, Option<Expr>>,
 }
@@ -110,6 +113,15 @@ impl<'a> Checker<'a> {
                 });
             }
             Kind::Verify(name) => draft.verify = self.one_of_words(name, "`verify`", VERIFY).is_some(),
+            Kind::Insertion(name) => {
+                draft.insertion = self.one_of_words(name, "`insertion`", INSERTION).map(|word| {
+                    if word == "projective" {
+                        Insertion::Projective
+                    } else {
+                        Insertion::Exact
+                    }
+                });
+            }
             Kind::SensorModel(fields) => draft.sensor_model = self.fields(fields, SENSOR_MODEL, "sensor_model"),
         }
     }
@@ -364,6 +376,7 @@ fn assemble(task: &tree::Task, mut draft: Draft) -> Option<Task> {
         method: draft.method.unwrap_or_else(|| USUAL_METHOD.to_owned()),
         inspected: draft.inspected.unwrap_or(Inspected::Observed),
         verify: draft.verify,
+        insertion: draft.insertion.unwrap_or_default(),
         sensor_model: (draft.sensor_model.into_iter())
             .filter_map(|(name, e)| Some((name, e?)))
             .collect(),
