@@ -3,6 +3,7 @@
 use crate::geometry::{Bounds, Camera, DepthRange, Intrinsics, Point, Vector};
 use crate::rules::{
     Call, Fact, Given, Goal, Insertion, Inspected, Library, Place, RuleSet, SensorModel, Space, Task, Thresholds,
+    Visibility,
 };
 
 /// ξ, ξ_ned and ξ_cfd where no task says: the paper's.
@@ -69,6 +70,7 @@ fn usual(library: &Library, space: Space) -> Task {
         gain_floor: 1,
         inspected: Inspected::Observed,
         insertion: Insertion::default(),
+        visibility: Visibility::Exact,
         verify: false,
         sensor_model: SensorModel::default(),
         place: Place::default(),

@@ -179,6 +179,10 @@ const WORDS: &[(&str, &str)] = &[
         "What counts as evidence about a predicted place: `observed`, or `near_point` alone.",
     ),
     (
+        "visibility",
+        "What hides a voxel: `exact` sight lines, or what is drawn at its `centre`, faster and coarser.",
+    ),
+    (
         "verify",
         "`all`: confident only when every predicted feature of the winning class was inspected.",
     ),
@@ -207,11 +211,15 @@ const CHOICES: &[(&str, &str)] = &[
     ),
     (
         "exact",
-        "A ray goes to every voxel with a point, and frees those before it: OctoMap's sets, voxel for voxel.",
+        "`insertion`: a ray goes to every voxel with a point and frees those before it, as OctoMap does. `visibility`: an occupied voxel on the line to the eye hides.",
     ),
     (
         "projective",
         "Free is what lies in front of the reading of its pixel: several times faster where voxels are small, without slivers along silhouettes.",
+    ),
+    (
+        "centre",
+        "A voxel is hidden where an occupied one is drawn nearer at its centre; errs towards hidden.",
     ),
     ("all", "Every predicted feature of the winning class."),
 ];
@@ -236,7 +244,7 @@ mod tests {
             let fields = vocabulary::fields(statement);
             assert!(fields.iter().all(|(f, _)| field(statement, f).is_some()), "{statement}");
         }
-        for statement in ["goal", "inspected", "verify", "insertion"] {
+        for statement in ["goal", "inspected", "visibility", "verify", "insertion"] {
             assert!(
                 vocabulary::words(statement).iter().all(|w| word(w).is_some()),
                 "{statement}"

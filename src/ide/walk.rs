@@ -126,6 +126,7 @@ fn in_statement<'t>(kind: &'t Kind, see: &mut impl FnMut(&'t Expr)) {
         | Kind::Goal(_)
         | Kind::Method(_)
         | Kind::Inspected(_)
+        | Kind::Visibility(_)
         | Kind::Verify(_)
         | Kind::Insertion(_) => {}
     }

@@ -13,6 +13,7 @@ use super::completion::{self, Completion, Outcome};
 use super::error::PlanError;
 use super::instances::Finding;
 use super::knowledge::Knowledge;
+use super::look::Targets;
 use super::methods::{self, Method, Rank, Situation};
 use super::reasoning::{self, Proofs};
 use super::report::{self, Decision, Next, Standing, Terms, Update};
@@ -286,7 +287,7 @@ impl Session {
         let Some(choice) = self.method.choose(&situation, &mut self.random) else {
             return self.end(Outcome::Exhausted, completion, gains);
         };
-        let rear = self.map.rear_side();
+        let rear = Targets::of(&self.map, self.map.rear_side());
         let standing = |rank: &Rank| {
             let (view, gain) = (gains.views[rank.position], &gains.feature[rank.position]);
             Standing {
@@ -295,7 +296,7 @@ impl Session {
                 terms: Terms {
                     overlap: rank.overlap,
                     feature: gain.bits,
-                    surface: score::surface_gain(&self.map, &self.candidates[view], &rear, &self.knowledge),
+                    surface: score::surface_gain(&situation.look(rank.position), &rear, &self.knowledge),
                     w: gains.w,
                 },
                 share: rank.share,

@@ -34,6 +34,8 @@ pub struct Task {
     pub gain_floor: u32,
     /// How eq. 3 counts a voxel.
     pub inspected: Inspected,
+    /// How it is decided what hides a voxel.
+    pub visibility: Visibility,
     /// Whether every predicted feature of the winning class must be inspected
     /// before the class counts as confident.
     pub verify: bool,
@@ -123,6 +125,17 @@ pub enum Insertion {
     Exact,
     /// Those whose centre lies nearer than the reading of the pixel that it falls on.
     Projective,
+}
+
+/// How it is decided whether something hides a voxel from a view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Visibility {
+    /// An occupied voxel lies on the line from its centre to the eye.
+    Exact,
+    /// An occupied voxel is nearer where its centre falls in the image.
+    Centre,
 }
 
 /// OctoMap's sensor model, in probabilities.

@@ -38,6 +38,7 @@
   "method"
   "gain_floor"
   "inspected"
+  "visibility"
   "verify"
   "insertion"
   "sensor_model"
@@ -112,6 +113,7 @@
 (goal (name) @constant.builtin)
 (method (name) @constant.builtin)
 (inspected (name) @constant.builtin)
+(visibility (name) @constant.builtin)
 (verify (name) @constant.builtin)
 (insertion (name) @constant.builtin)
 (supposed state: (name) @keyword)

@@ -69,6 +69,7 @@ const TURNS: &[(&str, Option<Type>)] = &[
     ("and", None),
     ("method", None),
     ("inspected", None),
+    ("visibility", None),
     ("verify", None),
     ("insertion", None),
     ("library", None),

@@ -68,6 +68,7 @@ fn members(start: Rule) -> Option<&'static [Rule]> {
             Rule::kw_method,
             Rule::kw_gain_floor,
             Rule::kw_inspected,
+            Rule::kw_visibility,
             Rule::kw_verify,
             Rule::kw_insertion,
             Rule::kw_sensor_model,
@@ -171,6 +172,7 @@ fn describe(expected: Rule) -> Option<(u8, String)> {
         | Rule::method
         | Rule::gain_floor
         | Rule::inspected
+        | Rule::visibility
         | Rule::verify
         | Rule::insertion
         | Rule::sensor_model
