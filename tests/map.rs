@@ -196,7 +196,7 @@ proptest! {
     fn sight_lines_meet_what_the_segment_against_every_cube_does(
         map in world(), eye in eye(), tolerance in prop_oneof![Just(0.0), 0.0..0.2_f64], from in 0..64_u32,
     ) {
-        let sight = map.visibility().from(&eye, tolerance);
+        let sight = map.visibility().from(&eye);
         let occupied = map.occupied();
         let some = voxels(&map).skip(from as usize).step_by(map.grid().len() as usize / 250);
         // Behind every occupied voxel, where lines are met.
@@ -205,7 +205,7 @@ proptest! {
             map.grid().containing(&(centre + (centre - eye) * 0.1))
         });
         for v in some.chain(behind) {
-            prop_assert_eq!(sight.sees(v), naively_visible(&map, &occupied, &eye, v, tolerance), "{:?}", v);
+            prop_assert_eq!(sight.sees(v, tolerance), naively_visible(&map, &occupied, &eye, v, tolerance), "{:?}", v);
         }
     }
 

@@ -46,7 +46,9 @@ pub fn depth(arguments: &Arguments) -> Result<Vec<Value>, String> {
 }
 
 fn mode<'a>(arguments: &'a Arguments, known: &[&'a str]) -> Result<&'a str, String> {
-    let Some(mode) = arguments.mode.as_deref() else { return Ok(known[0]) };
+    let Some(mode) = arguments.mode.as_deref() else {
+        return Ok(known[0]);
+    };
     let found = known.contains(&mode).then_some(mode);
     found.ok_or_else(|| format!("`{}` has the modes {}, not `{mode}`", arguments.job, known.join(", ")))
 }

@@ -134,7 +134,12 @@ mod tests {
     #[test]
     fn a_word_changes_as_its_voxels_do() {
         let model = LogOdds::quantised(&SensorModel::default());
-        let marks = [(0x00ff_3c5a_0000_ffff, 0xffff_0000_dead_beef), (0, 1 << 63), (u64::MAX, 0), (0, u64::MAX)];
+        let marks = [
+            (0x00ff_3c5a_0000_ffff, 0xffff_0000_dead_beef),
+            (0, 1 << 63),
+            (u64::MAX, 0),
+            (0, u64::MAX),
+        ];
         for (hit, miss) in marks {
             for start in 0..=255_u8 {
                 let mut brick = Brick::filled(0, 0);

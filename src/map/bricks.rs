@@ -106,7 +106,10 @@ impl Bricks {
             if batch.is_empty() {
                 return;
             }
-            batch.par_iter_mut().with_min_len(64).for_each(|due| due.apply(layout, model));
+            batch
+                .par_iter_mut()
+                .with_min_len(64)
+                .for_each(|due| due.apply(layout, model));
             batch.into_iter().for_each(|due| self.put(due));
         }
     }
@@ -116,7 +119,11 @@ impl Bricks {
             Entry::Slot(slot) => self.slots.get_mut(slot).and_then(Option::take),
             _ => None,
         };
-        Due { entry: marked.before, marked, brick }
+        Due {
+            entry: marked.before,
+            marked,
+            brick,
+        }
     }
 
     fn put(&mut self, due: Due) {
@@ -162,7 +169,10 @@ impl Bricks {
             Entry::Tile(value) => ([value; VOXELS], None),
             _ => {
                 let brick = self.get(index);
-                (brick.map_or([UNKNOWN; VOXELS], values), brick.and_then(|b| b.surface.as_deref()))
+                (
+                    brick.map_or([UNKNOWN; VOXELS], values),
+                    brick.and_then(|b| b.surface.as_deref()),
+                )
             }
         }
     }
@@ -184,7 +194,12 @@ struct Due {
 
 impl Due {
     fn apply(&mut self, layout: &Layout, model: &LogOdds) {
-        let Marked { brick: index, hits, misses, .. } = &mut self.marked;
+        let Marked {
+            brick: index,
+            hits,
+            misses,
+            ..
+        } = &mut self.marked;
         let inside = layout.inside(*index);
         (0..WORDS).for_each(|w| misses[w] &= inside[w]);
         let (no_hits, all_missed) = (*hits == [0; WORDS], *misses == [u64::MAX; WORDS]);

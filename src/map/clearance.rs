@@ -30,6 +30,8 @@ pub(super) struct Clearance {
     strides: [usize; 3],
     entries: Vec<u32>,
     words: Vec<u64>,
+    /// Of each word, the first cell of its block.
+    corners: Vec<[i32; 3]>,
 }
 
 /// One axis of the box of occupied blocks; reversed, cell c is −1 − c.
@@ -66,6 +68,7 @@ impl Clearance {
             strides: [1, padded[0], padded[0] * padded[1]],
             entries: vec![FIRST_WORD - 1; padded.iter().product()],
             words: words.iter().map(|w| w.1).collect(),
+            corners: words.iter().map(|w| w.0.map(|b| b * 4)).collect(),
         };
         let places: Vec<_> = words.iter().map(|w| clearance.place(w.0.map(|b| b * 4))).collect();
         clearance.spread_from(&places, size);
@@ -78,6 +81,16 @@ impl Clearance {
     /// Whether nothing is occupied.
     pub fn is_empty(&self) -> bool {
         self.words.is_empty()
+    }
+
+    /// First cell and extents, in cells, of the box of occupied blocks.
+    pub fn extent(&self) -> ([i32; 3], [i32; 3]) {
+        (self.low, [0, 1, 2].map(|k| self.high[k] - self.low[k]))
+    }
+
+    /// The blocks with occupied voxels: first cell and bits.
+    pub fn occupied(&self) -> impl Iterator<Item = ([i32; 3], u64)> {
+        self.corners.iter().copied().zip(self.words.iter().copied())
     }
 
     /// The block at a place: the sum of its places along the axes.

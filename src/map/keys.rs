@@ -26,7 +26,11 @@ impl Keys {
     /// The keys of a grid.
     pub fn of(grid: &Grid) -> Self {
         Self {
-            first: each(|k| (grid.origin[k] / grid.voxel).round().clamp(-2.0 * FARTHEST, 2.0 * FARTHEST) as i32),
+            first: each(|k| {
+                (grid.origin[k] / grid.voxel)
+                    .round()
+                    .clamp(-2.0 * FARTHEST, 2.0 * FARTHEST) as i32
+            }),
             voxel: grid.voxel,
             per_voxel: 1.0 / grid.voxel,
             size: each(|k| grid.size[k] as i32),

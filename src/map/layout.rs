@@ -122,8 +122,20 @@ impl Layout {
 
 /// Bits of a word whose coordinate along an axis is below 0, 1, … 4.
 const AXIS: [[u64; 5]; 3] = [
-    [0, 0x1111_1111_1111_1111, 0x3333_3333_3333_3333, 0x7777_7777_7777_7777, u64::MAX],
-    [0, 0x000f_000f_000f_000f, 0x00ff_00ff_00ff_00ff, 0x0fff_0fff_0fff_0fff, u64::MAX],
+    [
+        0,
+        0x1111_1111_1111_1111,
+        0x3333_3333_3333_3333,
+        0x7777_7777_7777_7777,
+        u64::MAX,
+    ],
+    [
+        0,
+        0x000f_000f_000f_000f,
+        0x00ff_00ff_00ff_00ff,
+        0x0fff_0fff_0fff_0fff,
+        u64::MAX,
+    ],
     [0, 0xffff, 0xffff_ffff, 0xffff_ffff_ffff, u64::MAX],
 ];
 

@@ -40,7 +40,11 @@ struct Change {
 impl Change {
     fn by(units: i8) -> Self {
         let size = units.unsigned_abs();
-        if units > 0 { Self { up: size, down: 0 } } else { Self { up: 0, down: size } }
+        if units > 0 {
+            Self { up: size, down: 0 }
+        } else {
+            Self { up: 0, down: size }
+        }
     }
 }
 
@@ -71,7 +75,11 @@ impl LogOdds {
         let known = if value == UNKNOWN { EVEN } else { value };
         let up = (self.hit.up & hit) | (self.miss.up & miss);
         let down = (self.hit.down & hit) | (self.miss.down & miss);
-        known.saturating_add(up).saturating_sub(down).max(self.min).min(self.max)
+        known
+            .saturating_add(up)
+            .saturating_sub(down)
+            .max(self.min)
+            .min(self.max)
     }
 
     /// A value after a miss.
@@ -183,7 +191,10 @@ mod tests {
             clamp_max: 0.5,
             occupied: 2.0,
         });
-        assert_eq!((odd.hit, odd.miss, odd.occupied), (Change::by(0), Change::by(0), u8::MAX));
+        assert_eq!(
+            (odd.hit, odd.miss, odd.occupied),
+            (Change::by(0), Change::by(0), u8::MAX)
+        );
         assert_eq!(odd.missed(UNKNOWN), EVEN, "a look that says nothing is still a look");
     }
 }

@@ -163,5 +163,7 @@ fn bits(words: &Words) -> Bits {
 }
 
 fn joined<'a>(parts: impl Iterator<Item = &'a Words>) -> Bits {
-    parts.fold([0; WORDS], |all, part| std::array::from_fn(|w| all[w] | part[w].load(Relaxed)))
+    parts.fold([0; WORDS], |all, part| {
+        std::array::from_fn(|w| all[w] | part[w].load(Relaxed))
+    })
 }

@@ -7,17 +7,24 @@
 
 mod brick;
 mod bricks;
+mod cell_projection;
+mod centre_view;
 mod clearance;
+mod depth_window;
 mod grid;
 mod keys;
 mod layout;
+mod line;
 mod log_odds;
 mod marks;
-mod octomap_file;
+pub mod octomap;
+mod planning;
 mod points;
 mod projection;
 mod pyramid;
 mod ray;
+mod ray_counts;
+mod rays;
 mod readings;
 mod rear_side;
 mod surface;
@@ -25,16 +32,22 @@ mod table;
 mod tags;
 mod trace;
 mod visibility;
+mod voxel_set;
 mod walk;
 
+pub use centre_view::CentreView;
 pub use grid::{Grid, Voxel};
-pub use octomap_file::write_bt;
+pub use octomap::{OctoMap, write_bt, write_ot};
+pub use planning::{PlanningGrid, State};
+pub use ray_counts::{RayCounts, Seen};
+pub use rays::{Ray, image_rays};
 pub use tags::Tag;
 pub use visibility::{Sight, Visibility};
+pub use voxel_set::VoxelSet;
 
 use std::sync::OnceLock;
 
-use crate::geometry::Point;
+use crate::geometry::{DepthRange, Intrinsics, Point, Pose};
 use crate::rules::{SensorModel, Space};
 use crate::sense::Observation;
 use brick::{Brick, is_known};
@@ -122,7 +135,10 @@ impl Map {
     /// empty, and a measured voxel takes about a byte.
     #[must_use]
     pub fn of_occupancy_alone(self) -> Self {
-        Self { surfaces: false, ..self }
+        Self {
+            surfaces: false,
+            ..self
+        }
     }
 
     /// Inserts a measurement by exact rays: that of [`Map::insert_cloud`] with
@@ -265,6 +281,11 @@ impl Map {
         self.voxels(occupied)
     }
 
+    /// Free and occupied voxels, ascending.
+    pub fn measured(&self) -> Vec<Voxel> {
+        self.voxels_where(|b| b.known)
+    }
+
     /// Pre-occupied voxels, ascending.
     pub fn preoccupied(&self) -> Vec<Voxel> {
         self.voxels(self.preoccupied_bits())
@@ -280,13 +301,36 @@ impl Map {
     /// whose centre lies within `tolerance` metres of the centre of `voxel`
     /// does not hide it. Many questions of one eye: [`Map::visibility`].
     pub fn visible(&self, eye: &Point, voxel: Voxel, tolerance: f64) -> bool {
-        self.visibility().from(eye, tolerance).sees(voxel)
+        self.visibility().from(eye).sees(voxel, tolerance)
     }
 
     /// What can be seen of the space as it is now.
     pub fn visibility(&self) -> Visibility<'_> {
-        let clearance = self.clearance.get_or_init(|| Clearance::of(&self.layout, &self.bricks, &self.model));
-        Visibility::new(self.grid, clearance)
+        Visibility::new(self.grid, self.clearance())
+    }
+
+    /// What a depth camera would see of the space as it is now, by the centres of
+    /// voxels.
+    pub fn centre_view(&self, image: &Intrinsics, range: DepthRange, world_from_camera: &Pose) -> CentreView {
+        CentreView::of(&self.grid, self.clearance(), image, range, world_from_camera)
+    }
+
+    fn clearance(&self) -> &Clearance {
+        self.clearance
+            .get_or_init(|| Clearance::of(&self.layout, &self.bricks, &self.model))
+    }
+
+    /// Unknown voxels, tagged or not.
+    pub fn unknown(&self) -> VoxelSet {
+        VoxelSet::of_bricks(
+            &self.layout,
+            (0..self.bricks.len()).map(|index| (index, self.unknown_bits(index))),
+        )
+    }
+
+    /// The states of all voxels as they are now, for rays: a byte a voxel.
+    pub fn planning_grid(&self) -> PlanningGrid {
+        PlanningGrid::of(&self.layout, &self.bricks, &self.model, &self.tags)
     }
 
     /// Voxels by state.
@@ -310,9 +354,21 @@ impl Map {
         self.bricks.memory()
     }
 
+    fn unknown_bits(&self, brick: usize) -> Bits {
+        let known = self
+            .bricks
+            .states_of(brick, &self.model)
+            .map_or([0; layout::WORDS], |b| b.known);
+        let inside = self.layout.inside(brick);
+        std::array::from_fn(|w| inside[w] & !known[w])
+    }
+
     fn preoccupied_bits(&self) -> impl Iterator<Item = (usize, Bits)> {
         self.tags.bricks().map(|(brick, tagged)| {
-            let known = self.bricks.states_of(brick, &self.model).map_or([0; layout::WORDS], |b| b.known);
+            let known = self
+                .bricks
+                .states_of(brick, &self.model)
+                .map_or([0; layout::WORDS], |b| b.known);
             (brick, std::array::from_fn(|w| tagged[w] & !known[w]))
         })
     }

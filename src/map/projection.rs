@@ -104,7 +104,9 @@ impl<'a> Projection<'a> {
             size: [width, depth.len() / width.max(1)],
             depth,
             corner: scaled(grid.origin - observation.eye()),
-            corners: (0..TOP).map(|level| Offsets::grid(&axes, (4 << level) as f64)).collect(),
+            corners: (0..TOP)
+                .map(|level| Offsets::grid(&axes, (4 << level) as f64))
+                .collect(),
             voxels: Offsets::grid(&axes, 1.0),
             layout,
             table,

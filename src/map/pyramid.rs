@@ -51,7 +51,9 @@ impl Pyramid {
             (u, v) = (u.map(|end| end / 2), v.map(|end| end / 2));
             level += 1;
         }
-        let Some(level) = self.levels.get(level) else { return [0.0, f32::INFINITY] };
+        let Some(level) = self.levels.get(level) else {
+            return [0.0, f32::INFINITY];
+        };
         let rows = (v[0]..=v[1]).filter_map(|row| level.tiles.get(row * level.width..)?.get(u[0]..=u[1]));
         rows.flatten().fold(NOTHING, |all, tile| both(all, *tile))
     }
@@ -62,9 +64,15 @@ impl Level {
         let (width, rows) = (self.width.div_ceil(2), self.tiles.chunks(self.width * 2));
         let halved = |rows: &[Range]| {
             let (upper, lower) = rows.split_at(self.width);
-            let pairs = move |row: &[Range]| row.chunks(2).map(|pair| pair.iter().fold(NOTHING, |a, b| both(a, *b))).collect::<Vec<_>>();
+            let pairs = move |row: &[Range]| {
+                row.chunks(2)
+                    .map(|pair| pair.iter().fold(NOTHING, |a, b| both(a, *b)))
+                    .collect::<Vec<_>>()
+            };
             let mut row = pairs(upper);
-            row.iter_mut().zip(pairs(lower)).for_each(|(above, below)| *above = both(*above, below));
+            row.iter_mut()
+                .zip(pairs(lower))
+                .for_each(|(above, below)| *above = both(*above, below));
             row
         };
         Self {
@@ -78,7 +86,10 @@ const NOTHING: Range = [f32::INFINITY, 0.0];
 
 #[inline(always)]
 fn both(a: Range, b: Range) -> Range {
-    [if b[0] < a[0] { b[0] } else { a[0] }, if b[1] > a[1] { b[1] } else { a[1] }]
+    [
+        if b[0] < a[0] { b[0] } else { a[0] },
+        if b[1] > a[1] { b[1] } else { a[1] },
+    ]
 }
 
 /// Tiles of up to [`TILE`] image rows.
@@ -117,6 +128,11 @@ mod tests {
             }
         }
         assert_eq!(pyramid.range(&Rectangle { u: [0, 22], v: [0, 13] }), [0.0, 100.0]);
-        assert_eq!(pyramid.range(&Rectangle { u: [4, 7], v: [8, 8] })[1], (8..12).map(|y| (4..8).map(|x| depth[y * 23 + x]).fold(0.0, f32::max)).fold(0.0, f32::max));
+        assert_eq!(
+            pyramid.range(&Rectangle { u: [4, 7], v: [8, 8] })[1],
+            (8..12)
+                .map(|y| (4..8).map(|x| depth[y * 23 + x]).fold(0.0, f32::max))
+                .fold(0.0, f32::max)
+        );
     }
 }

@@ -111,7 +111,13 @@ impl Ray {
 
     /// Steps from a voxel of the grid to the last one, where the ray goes on.
     fn steps_inside(&self, keys: &Keys) -> u32 {
-        let to_leave = |k: usize| if self.is_down(k) { self.cell[k] + 1 } else { keys.size[k] - self.cell[k] };
+        let to_leave = |k: usize| {
+            if self.is_down(k) {
+                self.cell[k] + 1
+            } else {
+                keys.size[k] - self.cell[k]
+            }
+        };
         let [x, y, z] = each(|k| self.crossing(k, to_leave(k)));
         let yz = if y.at < z.at { y } else { z };
         let first = if x.at < yz.at { x } else { yz };
@@ -144,7 +150,10 @@ impl Ray {
         }
         let n = ((until.at - self.next[k]) / self.period[k]) as i32;
         let n = n.saturating_add(1);
-        match (before(self.crossing(k, n).at), before(self.crossing(k, n.saturating_add(1)).at)) {
+        match (
+            before(self.crossing(k, n).at),
+            before(self.crossing(k, n.saturating_add(1)).at),
+        ) {
             (false, _) => n - 1,
             (_, true) => n + 1,
             _ => n,

@@ -28,8 +28,18 @@ impl<'a> Trace<'a> {
     pub fn from(layout: &'a Layout, table: &'a Table, marks: &'a Marks, eye: &Point, beyond: bool) -> Option<Self> {
         let keys = Keys::of(layout.grid());
         let at = keys.point(eye)?;
-        let eye = Eye { at, cell: keys.cell(at) };
-        Some(Self { keys, layout, table, marks, eye, beyond })
+        let eye = Eye {
+            at,
+            cell: keys.cell(at),
+        };
+        Some(Self {
+            keys,
+            layout,
+            table,
+            marks,
+            eye,
+            beyond,
+        })
     }
 
     /// Address of a cell inside the grid.
@@ -52,7 +62,9 @@ impl<'a> Trace<'a> {
     /// Marks what the rays to all hit voxels miss.
     pub fn rays(&self) {
         (0..self.marks.len()).into_par_iter().with_min_len(8).for_each(|mark| {
-            let Some((brick, hits)) = self.marks.hits(mark) else { return };
+            let Some((brick, hits)) = self.marks.hits(mark) else {
+                return;
+            };
             for at in addresses(brick, &hits) {
                 self.ray(self.layout.cell(at).map(|c| c as i32));
             }
@@ -60,7 +72,9 @@ impl<'a> Trace<'a> {
     }
 
     fn ray(&self, end: [i32; 3]) {
-        let Some(ray) = Ray::between(&self.keys, &self.eye, end) else { return };
+        let Some(ray) = Ray::between(&self.keys, &self.eye, end) else {
+            return;
+        };
         match ray.down {
             0 => self.walk::<0>(&ray),
             1 => self.walk::<1>(&ray),
@@ -141,17 +155,29 @@ impl<'a, const DOWN: u8> Stand<'a, DOWN> {
     fn step<const K: usize>(&mut self, trace: &Trace<'a>) -> Option<()> {
         let (down, axis, one) = (DOWN >> K & 1 == 1, AXES[K], 1 << (2 * K));
         let at = self.local[K];
-        let counted = if down { at.wrapping_sub(one) } else { at.wrapping_add(!axis).wrapping_add(one) };
+        let counted = if down {
+            at.wrapping_sub(one)
+        } else {
+            at.wrapping_add(!axis).wrapping_add(one)
+        };
         self.local[K] = counted & axis;
         let first = if down { axis } else { 0 };
-        if self.local[K] == first { self.next_brick::<K>(trace) } else { Some(()) }
+        if self.local[K] == first {
+            self.next_brick::<K>(trace)
+        } else {
+            Some(())
+        }
     }
 
     #[inline(always)]
     fn next_brick<const K: usize>(&mut self, trace: &Trace<'a>) -> Option<()> {
         self.ahead[K] = self.ahead[K].checked_sub(1)?;
         let stride = trace.layout.strides[K];
-        self.brick = if DOWN >> K & 1 == 1 { self.brick - stride } else { self.brick + stride };
+        self.brick = if DOWN >> K & 1 == 1 {
+            self.brick - stride
+        } else {
+            self.brick + stride
+        };
         self.words = trace.marks.misses(trace.table, self.brick)?;
         Some(())
     }
