@@ -145,6 +145,7 @@ fn run(
         method: settings.method.clone(),
         seed,
         limit: settings.limit,
+        ..Options::default()
     };
     let mut session = Session::new(rules, &task.name, options)?;
     let sensor = Simulated {

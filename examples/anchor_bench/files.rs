@@ -3,14 +3,21 @@
 //! - `.vpc`: u32 frames; a frame is 12 f32 of a row-major 3 × 4 camera-to-world matrix,
 //!   u32 n and n · 3 f32 of points in world axes.
 //! - `.vdi`: u32 frames, width and height, f32 fx fy cx cy; a frame is its matrix as
-//!   above and width · height f32 of z-depth in metres, 0 for no reading.
+//!   above and width · height f32 of z-depth in metres, 0 or not a number for no reading.
+//! - `.vmesh`: u32 vertices and triangles, 3 f32 a vertex, 3 u32 a triangle.
+//!
+//! Nothing is set aside for what a file promises before it is read, so a wrong count
+//! ends in an error and not in all of the memory.
 
 use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
 use vpl::geometry::{Camera, DepthRange, Intrinsics, Point, Pose};
-use vpl::sense::{ColourImage, DepthImage, Observation};
+use vpl::sense::{ColourImage, DepthImage, Mesh, Observation, Paint};
+
+/// Of an image, a side.
+const MOST_PIXELS: usize = 16_384;
 
 /// Reads the file's values one after the other.
 struct Reader(BufReader<File>);
@@ -46,8 +53,21 @@ impl Reader {
 
     fn pose(&mut self) -> Result<Pose, String> {
         let rows = nalgebra::Matrix3x4::from_row_slice(&self.floats::<12>()?);
-        let rotation = nalgebra::Rotation3::from_matrix(&rows.fixed_columns::<3>(0).into_owned());
+        let turn = rows.fixed_columns::<3>(0).into_owned();
+        let off = (turn.transpose() * turn - nalgebra::Matrix3::identity()).amax();
+        // So written that what is not a number is refused.
+        if !(off < 1e-3 && turn.determinant() > 0.0 && rows.column(3).amax().is_finite()) {
+            return Err("a camera-to-world matrix is no rotation and place".to_owned());
+        }
+        let rotation = nalgebra::Rotation3::from_matrix(&turn);
         Ok(Pose::from_parts(rows.column(3).into_owned().into(), rotation.into()))
+    }
+
+    /// A vertex number below `vertices`.
+    fn corner(&mut self, vertices: usize) -> Result<u32, String> {
+        let k = self.count()?;
+        let known = (k < vertices).then_some(k as u32);
+        known.ok_or_else(|| format!("a triangle names vertex {k} of {vertices}, counted from 0"))
     }
 }
 
@@ -78,6 +98,16 @@ pub fn depth_images(path: &Path, most: usize) -> Result<Vec<Observation>, String
     let mut file = Reader::open(path)?;
     let [frames, width, height] = [file.count()?, file.count()?, file.count()?];
     let [fx, fy, cx, cy] = file.floats()?;
+    if !([fx, fy].iter().all(|f| f.is_finite() && *f > 0.0) && [cx, cy].iter().all(|c| c.is_finite())) {
+        return Err(format!(
+            "no camera has focal lengths {fx}, {fy} and its axis at {cx}, {cy}"
+        ));
+    }
+    if !(1..=MOST_PIXELS).contains(&width) || !(1..=MOST_PIXELS).contains(&height) {
+        return Err(format!(
+            "an image has 1 to {MOST_PIXELS} pixels a side, not {width} x {height}"
+        ));
+    }
     let image = Intrinsics {
         width: width as u32,
         height: height as u32,
@@ -109,6 +139,30 @@ pub fn depth_images(path: &Path, most: usize) -> Result<Vec<Observation>, String
         })
     };
     (0..at_most(frames, most)).map(|_| frame(&mut file)).collect()
+}
+
+/// The mesh of a `.vmesh` file, plainly grey.
+pub fn mesh(path: &Path) -> Result<Mesh, String> {
+    let mut file = Reader::open(path)?;
+    let [vertices, triangles] = [file.count()?, file.count()?];
+    let vertex = |file: &mut Reader| {
+        let p = Point::from(file.floats::<3>()?);
+        let finite = p.coords.amax().is_finite();
+        finite.then_some(p).ok_or_else(|| "a vertex is not a number".to_owned())
+    };
+    let triangle = |file: &mut Reader| Ok([file.corner(vertices)?, file.corner(vertices)?, file.corner(vertices)?]);
+    let vertices = (0..vertices)
+        .map(|_| vertex(&mut file))
+        .collect::<Result<_, String>>()?;
+    let triangles = (0..triangles)
+        .map(|_| triangle(&mut file))
+        .collect::<Result<Vec<_>, String>>()?;
+    Ok(Mesh {
+        vertices,
+        paints: vec![Paint::Flat([128; 3]); triangles.len()],
+        triangles,
+        ..Mesh::default()
+    })
 }
 
 fn at_most(frames: usize, most: usize) -> usize {

@@ -17,7 +17,7 @@ mod layout;
 mod line;
 mod log_odds;
 mod marks;
-mod octomap_file;
+pub mod octomap;
 mod planning;
 mod points;
 mod projection;
@@ -37,7 +37,7 @@ mod walk;
 
 pub use centre_view::CentreView;
 pub use grid::{Grid, Voxel};
-pub use octomap_file::write_bt;
+pub use octomap::{OctoMap, write_bt, write_ot};
 pub use planning::{PlanningGrid, State};
 pub use ray_counts::{RayCounts, Seen};
 pub use rays::{Ray, image_rays};
@@ -279,6 +279,12 @@ impl Map {
     pub fn occupied(&self) -> Vec<Voxel> {
         let occupied = self.bricks.states(&self.model).map(|b| (b.index, b.occupied));
         self.voxels(occupied)
+    }
+
+    /// Free and occupied voxels, ascending.
+    pub fn measured(&self) -> Vec<Voxel> {
+        let measured = self.bricks.states(&self.model).map(|b| (b.index, b.known));
+        self.voxels(measured)
     }
 
     /// Pre-occupied voxels, ascending.

@@ -60,6 +60,7 @@ impl<'a> Lowering<'a> {
             inspected: task.inspected,
             visibility: task.visibility,
             verify: task.verify,
+            insertion: task.insertion,
             sensor_model: sensor_model?,
             place: self.place(task.span),
         };

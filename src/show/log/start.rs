@@ -23,6 +23,9 @@ pub struct Start {
     pub seed: u64,
     /// Name of the depth noise.
     pub noise: String,
+    /// How measurements entered the map.
+    #[serde(default)]
+    pub insertion: rules::Insertion,
     /// Most measurements.
     pub limit: u32,
     /// Number of candidate views.
@@ -113,6 +116,7 @@ impl Start {
             method: session.method().to_owned(),
             seed,
             noise: noise.to_owned(),
+            insertion: session.task().insertion,
             limit: session.limit(),
             candidates: session.views().len(),
             rules,
