@@ -46,7 +46,7 @@ impl Tally {
 fn main() -> Result<(), Failure> {
     let mut arguments = std::env::args().skip(1);
     let file = arguments.next().ok_or("which program?")?;
-    let starts = arguments.next().map_or(Ok(4), |n| n.parse())?;
+    let starts = arguments.next().map_or(Ok(4), |n| n.parse::<usize>())?;
     let method = arguments.next();
     let rules = lang::compile(&file, &Disk).rules.ok_or("the program has errors; see `vpl check`")?;
     let scene = rules.scenes.first().ok_or("the program needs a scene")?;
@@ -74,8 +74,12 @@ fn of_object(
     let session = |visibility: Visibility, seed: u64| {
         let mut rules = rules.clone();
         rules.tasks[0].visibility = visibility;
-        let method = method.map(str::to_owned);
-        Session::new(&rules, &rules.tasks[0].name, Options { method, seed, limit: None })
+        let options = Options {
+            method: method.map(str::to_owned),
+            seed,
+            ..Options::default()
+        };
+        Session::new(&rules, &rules.tasks[0].name, options)
     };
     let of_start = |k: usize| {
         let (exact, centre) = (session(Visibility::Exact, k as u64)?, session(Visibility::Centre, k as u64)?);
