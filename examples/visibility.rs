@@ -100,7 +100,7 @@ fn of_run(mut exact: Session, mut centre: Session, mut sensor: Simulated<'_>, mu
     let mut tally = Tally::default();
     for n in 1.. {
         let pose = exact.views()[view];
-        let observation = sensor.measure(n, view, &pose);
+        let observation = sensor.measure(n, view, &pose)?;
         exact.observe(view, &observation)?;
         centre.observe(view, &observation)?;
         tally.all += 1;

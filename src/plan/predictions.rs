@@ -19,7 +19,7 @@ use super::expansion::{Expansion, expansions};
 use super::features::{Existence, FeatureStatus, Found, Pin, Predicted};
 use super::inspection::{self, evidence, inspected, predicted_voxels, reachable, tagged, touched};
 use super::knowledge::Knowledge;
-use super::look::LazyLook;
+use super::look::Look;
 use super::status::Status;
 use super::trace::{Nothing, Trace};
 use super::world::World;
@@ -51,7 +51,7 @@ pub fn refresh<W: World + ?Sized>(
     let visibility = knowledge.criteria.visibility;
     let visited: Vec<_> = visited
         .iter()
-        .map(|view| LazyLook::of(world, view, visibility))
+        .map(|view| Look::of(world, view, visibility))
         .collect();
     for id in knowledge.library.feature_ids() {
         let offers = offers(id, status, knowledge, trace)?;
@@ -325,7 +325,7 @@ fn place<W: World + ?Sized>(
 fn inspect<W: World + ?Sized>(
     feature: &mut FeatureStatus,
     knowledge: &Knowledge,
-    visited: &[LazyLook<'_, W>],
+    visited: &[Look<'_, W>],
     world: &W,
 ) {
     let criteria = &knowledge.criteria;
@@ -338,7 +338,7 @@ fn inspect<W: World + ?Sized>(
             if k < blind {
                 return vec![false; voxels.len()];
             }
-            reachable(visited[k].get(), voxels, &touched, envelope, criteria.near, |_| true)
+            reachable(&visited[k], voxels, &touched, envelope, criteria.near, |_| true)
         };
         let looks: Vec<Vec<bool>> = missing.into_par_iter().map(look).collect();
         predicted.looks.extend(looks);
