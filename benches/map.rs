@@ -94,8 +94,8 @@ fn spread(map: &Map, rear: Vec<Voxel>) -> Vec<Voxel> {
 fn seen(map: &Map, eyes: &[Point], targets: &[Voxel], tolerance: f64) -> usize {
     let visibility = map.visibility();
     let from = |eye: &Point| {
-        let sight = visibility.from(eye, tolerance);
-        targets.iter().filter(|v| sight.sees(**v)).count()
+        let sight = visibility.from(eye);
+        targets.iter().filter(|v| sight.sees(**v, tolerance)).count()
     };
     eyes.iter().map(from).sum()
 }

@@ -51,6 +51,28 @@ impl Reader {
     }
 }
 
+/// A cloud and the eye that measured it, world axes.
+pub struct Cloud {
+    pub eye: Point,
+    pub points: Vec<Point>,
+}
+
+/// Clouds of a `.vpc` file, the first `most` of them unless that is 0.
+pub fn clouds(path: &Path, most: usize) -> Result<Vec<Cloud>, String> {
+    let mut file = Reader::open(path)?;
+    let frames = file.count()?;
+    let cloud = |file: &mut Reader| {
+        let eye = Point::from(file.pose()?.translation.vector);
+        let n = file.count()?;
+        let points = (0..n).map(|_| file.floats::<3>().map(Point::from));
+        Ok(Cloud {
+            eye,
+            points: points.collect::<Result<_, _>>()?,
+        })
+    };
+    (0..at_most(frames, most)).map(|_| cloud(&mut file)).collect()
+}
+
 /// Depth images of a `.vdi` file, the first `most` of them unless that is 0.
 pub fn depth_images(path: &Path, most: usize) -> Result<Vec<Observation>, String> {
     let mut file = Reader::open(path)?;

@@ -16,21 +16,22 @@ mod meter;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
+use clap::builder::PossibleValuesParser;
+use serde_json::Value;
 
-/// What is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Job {
-    /// Insertion of posed clouds.
-    Insert,
-    /// Insertion of depth images.
-    InsertDepth,
-}
+/// Measures and gives the lines to print, or what is wrong with the file or the options.
+type Run = fn(&Arguments) -> Result<Vec<Value>, String>;
+
+/// Every job, one function in a file of its own.
+const JOBS: &[(&str, Run)] = &[("insert", insert::clouds), ("insert-depth", insert::depth)];
 
 /// Measures the map on a file of posed clouds, depth images or a mesh.
 #[derive(Debug, Parser)]
 struct Arguments {
-    job: Job,
+    /// What is measured.
+    #[arg(value_parser = PossibleValuesParser::new(JOBS.iter().map(|job| job.0)))]
+    job: String,
     file: PathBuf,
     /// Edge of a voxel, metres.
     res: f64,
@@ -42,6 +43,14 @@ struct Arguments {
     /// The first so many frames; 0 for all.
     #[arg(long, default_value_t = 0)]
     frames: usize,
+}
+
+impl Arguments {
+    /// The name of the data: the file's without its ending.
+    fn data(&self) -> String {
+        let stem = self.file.file_stem().unwrap_or_default();
+        stem.to_string_lossy().into_owned()
+    }
 }
 
 fn main() -> ExitCode {
@@ -63,9 +72,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn measure(arguments: &Arguments) -> Result<Vec<serde_json::Value>, String> {
-    match arguments.job {
-        Job::Insert => Err("no clouds yet".to_owned()),
-        Job::InsertDepth => insert::depth(arguments),
+fn measure(arguments: &Arguments) -> Result<Vec<Value>, String> {
+    if !(arguments.res.is_finite() && arguments.res > 0.0) {
+        return Err(format!("a voxel's edge must be above 0 m, not {}", arguments.res));
     }
+    let job = JOBS.iter().find(|job| job.0 == arguments.job);
+    job.map_or_else(|| Err("no such job".to_owned()), |job| (job.1)(arguments))
 }

@@ -12,6 +12,7 @@ mod new;
 mod output;
 mod plan;
 mod recording;
+mod study;
 mod test;
 mod why;
 
@@ -43,6 +44,7 @@ enum Verb {
     Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
     Inspect(inspect::Inspect),
+    Study(study::Study),
     Test(test::Test),
     Why(why::Why),
     Completions(completions::Completions),
@@ -80,6 +82,9 @@ pub(crate) enum Failure {
     /// A file is no OctoMap tree.
     #[error("error[{code}]: {0} cannot be read as an OctoMap file: {1}", code = Code::E0612)]
     OctoMap(String, String),
+    /// A folder holds something else than the study's rows.
+    #[error("error[{code}]: {0}", code = Code::E0605)]
+    Folder(String),
     /// A run log cannot be read.
     #[error("error[{code}]: {0} cannot be read: {1}", code = Code::E0711)]
     Log(String, String),
@@ -122,6 +127,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
         Verb::Inspect(inspect) => inspect::run(&inspect),
+        Verb::Study(study) => study::run(&study),
         Verb::Test(test) => test::run(&test),
         Verb::Why(why) => why::run(&why),
         Verb::Completions(completions) => completions::run(&completions),

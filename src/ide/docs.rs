@@ -90,6 +90,33 @@ const WORDS: &[(&str, &str)] = &[
     ),
     ("test", "Facts that `vpl test` holds a library to."),
     (
+        "study",
+        "An experiment for `vpl study`: objects × methods × starts × noise × variants of a task.",
+    ),
+    (
+        "program",
+        "The file whose task and objects are studied; this one where left out.",
+    ),
+    (
+        "objects",
+        "Which objects; all of the program's and this file's where left out.",
+    ),
+    (
+        "methods",
+        "The methods that are compared; the first is what the others are held against.",
+    ),
+    (
+        "starts",
+        "From how many first views, evenly spread over the candidates.",
+    ),
+    (
+        "seeds",
+        "How often a run that chance decides is repeated with another seed.",
+    ),
+    ("noise", "What the depth camera does to depth; each is run."),
+    ("published", "A table of published numbers that stands beside ours."),
+    ("variant", "The same runs with other settings; `usual` is without."),
+    (
         "feature",
         "A local surface by which objects are known: a polygon, a marker or a shell.",
     ),

@@ -8,10 +8,11 @@
 //!   `observed`) it was measured free;
 //! - a look: x is inside the images, the depth range and the detector's
 //!   envelope, and not hidden. Where a measured point lies within ξ of x, an
-//!   occupied voxel within ξ does not hide it, for by eq. 3 that point inspects
-//!   it: a surface measured just in front of its predicted place would
-//!   otherwise hide that place for ever. Where none does, every occupied voxel
-//!   hides, or x would stay reachable and never be inspected.
+//!   occupied voxel within ξ of it, or one that touches it, does not hide it,
+//!   for by eq. 3 that point inspects it: a surface measured just in front of
+//!   its predicted place, or in the next layer of voxels, would otherwise hide
+//!   that place for ever. Where none does, every occupied voxel hides, or x
+//!   would stay reachable and never be inspected.
 //!
 //! A look counts only if the detector was run on it: where no definite rule
 //! detects the feature, views taken before its antecedents were measured are
@@ -146,11 +147,12 @@ pub fn reachable<W: World + ?Sized>(
     near: f64,
     wanted: impl Fn(usize) -> bool,
 ) -> Vec<bool> {
+    let own_surface = near.max(touching(world.grid()));
     let sees = |v: &PredictedVoxel| {
         let faces = |n: &Vector| view.could_detect(&v.centre, n, envelope);
         let tolerance = || {
             if world.measured_within(&v.centre, near) {
-                near
+                own_surface
             } else {
                 0.0
             }
@@ -158,6 +160,11 @@ pub fn reachable<W: World + ?Sized>(
         v.normals.iter().any(faces) && world.visible(view.eye(), v.voxel, tolerance())
     };
     voxels.iter().enumerate().map(|(k, v)| wanted(k) && sees(v)).collect()
+}
+
+/// Largest distance between the centres of voxels that touch, metres.
+fn touching(grid: &Grid) -> f64 {
+    3.0_f64.sqrt() * grid.voxel
 }
 
 /// Which of the predicted voxels there is evidence about.

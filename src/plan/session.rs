@@ -66,6 +66,7 @@ pub struct Session {
     map: Map,
     status: Status,
     tags: BTreeSet<Tag>,
+    gains: Vec<(usize, f64)>,
     decision: Decision,
 }
 
@@ -104,6 +105,7 @@ impl Session {
             map: Map::new(&task.space, task.sensor_model)?,
             status: Status::new(&knowledge),
             tags: BTreeSet::new(),
+            gains: Vec::new(),
             decision: Decision::Next(first(start)),
             poses,
             knowledge,
@@ -133,6 +135,11 @@ impl Session {
     /// Features, classes and visited views.
     pub fn status(&self) -> &Status {
         &self.status
+    }
+
+    /// Unvisited views, and G_fd + W · G_so of each after the last measurement.
+    pub fn gains(&self) -> Vec<(usize, f64)> {
+        self.gains.clone()
     }
 
     /// The name of the method, lower case.
@@ -245,6 +252,8 @@ impl Session {
             confident: completion::confident(&self.status, &self.knowledge),
             exhausted: gains.exhausted(),
         };
+        let totals = gains.views.iter().enumerate().map(|(k, view)| (*view, gains.total(k)));
+        self.gains = totals.collect();
         let contradicted = self.status.contradiction.is_some();
         let views = self.status.visited.len();
         let ended = completion::outcome(completion, self.knowledge.task.goal, contradicted, views, self.limit);

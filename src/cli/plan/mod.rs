@@ -71,6 +71,9 @@ pub(crate) struct Plan {
     /// Write the run log (JSON Lines); `-` is standard output.
     #[arg(long, value_name = "RUN.jsonl")]
     log: Option<PathBuf>,
+    /// Write a page that shows the run (HTML, opens offline); `-` is standard output.
+    #[arg(long, value_name = "RUN.html")]
+    report: Option<PathBuf>,
     /// Write the map as an OctoMap file; `-` is standard output.
     #[arg(long, value_name = "OUT.bt|OUT.ot")]
     map: Option<PathBuf>,
@@ -169,7 +172,11 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
         None => Vec::new(),
     };
     outputs::writable(options)?;
-    let mut recorder = Recorder::begin(options.log.as_deref(), head, logged.len())?;
+    let page = options
+        .report
+        .is_some()
+        .then(|| show::Report::begin(head.clone(), &session));
+    let mut recorder = Recorder::begin(options.log.as_deref(), page, head, logged.len())?;
     let drive = Drive {
         noise,
         seed: options.seed,
@@ -184,7 +191,7 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
     } else {
         print(&summary)?;
     }
-    outputs::write(options, &session, recorder.records())?;
+    outputs::write(options, &session, &recorder)?;
     Ok(if end == plan::Outcome::Goal {
         Outcome::Done
     } else {

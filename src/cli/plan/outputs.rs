@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::Plan;
+use super::record::Recorder;
 use crate::cli::Failure;
 use crate::cli::files::STDIN;
 use crate::cli::output::{self, MapForm, by_ending, is_stdout, settled};
@@ -64,6 +65,7 @@ fn outputs(options: &Plan) -> Vec<(&'static str, &Path)> {
         ("--cloud", &options.cloud),
         ("--predicted", &options.predicted),
         ("--poses", &options.poses),
+        ("--report", &options.report),
     ];
     all.into_iter()
         .filter_map(|(name, path)| Some((name, path.as_deref()?)))
@@ -120,7 +122,7 @@ pub(super) fn writable(options: &Plan) -> Result<(), Failure> {
 }
 
 /// Writes what a run learnt.
-pub(super) fn write(options: &Plan, session: &Session, records: &[Record]) -> Result<(), Failure> {
+pub(super) fn write(options: &Plan, session: &Session, recorder: &Recorder) -> Result<(), Failure> {
     if let Some(path) = &options.map {
         let form = MapForm::of(path)?;
         output::write(path, |to| form.write(session.map(), to))?;
@@ -140,11 +142,14 @@ pub(super) fn write(options: &Plan, session: &Session, records: &[Record]) -> Re
         })?;
     }
     if let Some(path) = &options.poses {
-        let (form, stops) = (pose_form(path)?, stops(session, records));
+        let (form, stops) = (pose_form(path)?, stops(session, recorder.records()));
         output::write(path, |to| match form {
             PoseForm::Tum => export::tum(&stops, to),
             PoseForm::Transforms => export::transforms(&stops, &session.task().camera, to),
         })?;
+    }
+    if let (Some(path), Some(page)) = (&options.report, recorder.page()) {
+        output::write(path, |to| to.write_all(page.as_bytes()))?;
     }
     Ok(())
 }

@@ -9,13 +9,14 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::cli::output::{is_stdout, quoted, writable};
 use crate::cli::{Failure, report};
-use crate::plan::{End, Part, Phase, Step};
+use crate::plan::{End, Part, Phase, Session, Step};
 use crate::show::log::{self, Milliseconds, Record};
-use crate::show::view_line;
+use crate::show::{Report, view_line};
 
 /// Writes each record as it comes, and shows a line a view.
 pub(super) struct Recorder {
     log: Option<Log>,
+    page: Option<Report>,
     records: Vec<Record>,
     last: Instant,
     ms: Milliseconds,
@@ -26,12 +27,18 @@ impl Recorder {
     /// Opens the log and writes its first line. A run that repeats `repeated`
     /// logged views writes nothing before it is past them: the log that it
     /// resumes may be the one that it writes.
-    pub fn begin(path: Option<&Path>, start: log::Start, repeated: usize) -> Result<Self, Failure> {
+    pub fn begin(
+        path: Option<&Path>,
+        page: Option<Report>,
+        start: log::Start,
+        repeated: usize,
+    ) -> Result<Self, Failure> {
         let log = path.map(|path| Log::begin(path, repeated)).transpose()?;
         // Hidden by itself where standard error is no terminal.
         let bar = ProgressBar::new_spinner().with_style(ProgressStyle::default_spinner());
         let mut recorder = Self {
             log,
+            page,
             records: Vec::new(),
             last: Instant::now(),
             ms: Milliseconds::default(),
@@ -73,9 +80,12 @@ impl Recorder {
         self.show(next);
     }
 
-    /// Records a view.
-    pub fn view(&mut self, step: &Step) -> Result<(), Failure> {
+    /// Records a view: the session as it stands after a step.
+    pub fn view(&mut self, session: &Session, step: &Step) -> Result<(), Failure> {
         let view = log::View::of(step, self.ms);
+        if let Some(page) = &mut self.page {
+            page.view(session, step, self.ms);
+        }
         let before = self.records.iter().rev().find_map(|r| match r {
             Record::View(view) => Some(view.as_ref()),
             _ => None,
@@ -90,6 +100,15 @@ impl Recorder {
         self.bar.finish_and_clear();
         let views = self.records.iter().filter(|r| matches!(r, Record::View(_))).count();
         self.write(Record::End(log::End::of(end, views as u32, coverage)))
+    }
+
+    /// The page that shows the run, where one is asked for.
+    pub fn page(&self) -> Option<String> {
+        let end = self.records.iter().rev().find_map(|r| match r {
+            Record::End(end) => Some(end),
+            _ => None,
+        });
+        self.page.as_ref().map(|page| page.page(end))
     }
 
     /// One write a line, so that an interrupted run leaves whole lines.

@@ -116,7 +116,7 @@ fn looped(
         if let Some(coverage) = &mut coverage {
             coverage.observe(&step.observation);
         }
-        recorder.view(&step)?;
+        recorder.view(turn.session(), &step)?;
         resume::agrees(drive.logged, &step)?;
         if let Decision::End(end) = &step.decision {
             recorder.end(end, coverage.and_then(|c| c.share()))?;

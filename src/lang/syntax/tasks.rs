@@ -33,7 +33,7 @@ impl Builder<'_> {
         })
     }
 
-    fn task_statement(&mut self, pair: Pair<'_, Rule>) -> Option<TaskStatementKind> {
+    pub(super) fn task_statement(&mut self, pair: Pair<'_, Rule>) -> Option<TaskStatementKind> {
         use TaskStatementKind as Kind;
         self.slips(&pair);
         let kind = pair.as_rule();

@@ -43,16 +43,16 @@ pub(in crate::lang) const SENSOR_MODEL: &[(&str, Type)] = &[
 
 /// What the statements of a task gave so far.
 #[derive(Default)]
-struct Draft {
+pub(super) struct Draft {
     seen: BTreeMap<&'static str, Span>,
     library: Option<String>,
     goal: Option<(Goal, Span)>,
-    values: BTreeMap<&'static str, Expr>,
+    pub(super) values: BTreeMap<&'static str, Expr>,
     method: Option<String>,
-    inspected: Option<Inspected>,
-    verify: bool,
-    thresholds: BTreeMap<&'static str, Option<Expr>>,
-    sensor_model: BTreeMap<&'static str, Option<Expr>>,
+    pub(super) inspected: Option<Inspected>,
+    pub(super) verify: bool,
+    pub(super) thresholds: BTreeMap<&'static str, Option<Expr>>,
+    pub(super) sensor_model: BTreeMap<&'static str, Option<Expr>>,
 }
 
 impl<'a> Checker<'a> {
@@ -74,11 +74,16 @@ impl<'a> Checker<'a> {
     }
 
     fn statement(&mut self, statement: &tree::TaskStatement, draft: &mut Draft, libraries: &[Library]) {
-        match &statement.kind {
+        self.setting(&statement.kind, statement.span, draft, libraries);
+    }
+
+    /// Checks what a statement of a task says, wherever it stands.
+    pub(super) fn setting(&mut self, kind: &Kind, at: Span, draft: &mut Draft, libraries: &[Library]) {
+        match kind {
             Kind::Library(name) => draft.library = self.library_of(name, libraries),
             Kind::Goal(words) => {
-                let last = words.last().map_or(statement.span, |w| w.span);
-                let span = words.first().map_or(statement.span, |w| w.span.to(last));
+                let last = words.last().map_or(at, |w| w.span);
+                let span = words.first().map_or(at, |w| w.span.to(last));
                 draft.goal = self.goal(words).map(|goal| (goal, span));
             }
             Kind::Camera(e) => self.value(draft, "camera", e, Type::Camera),
@@ -109,7 +114,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn value(&mut self, draft: &mut Draft, word: &'static str, e: &tree::Expr, ty: Type) {
+    pub(super) fn value(&mut self, draft: &mut Draft, word: &'static str, e: &tree::Expr, ty: Type) {
         let what = format!("`{word}`");
         let value = self.check(e, Due { ty, what: &what }, Scope::of(self.program.main()));
         draft.values.extend(value.map(|value| (word, value)));
@@ -237,7 +242,12 @@ impl<'a> Checker<'a> {
         });
     }
 
-    fn one_of_words(&mut self, name: &tree::Name, what: &str, words: &[&'static str]) -> Option<&'static str> {
+    pub(super) fn one_of_words(
+        &mut self,
+        name: &tree::Name,
+        what: &str,
+        words: &[&'static str],
+    ) -> Option<&'static str> {
         let found = words.iter().find(|w| **w == name.text).copied();
         match found {
             Some(word) => self.names.uses(name.span, Entity::Word(word)),
@@ -246,7 +256,7 @@ impl<'a> Checker<'a> {
         found
     }
 
-    fn method(&mut self, name: &tree::Name) -> Option<String> {
+    pub(super) fn method(&mut self, name: &tree::Name) -> Option<String> {
         let lower = name.text.to_ascii_lowercase();
         if let Some(word) = METHODS.iter().find(|word| **word == lower) {
             self.names.uses(name.span, Entity::Word(word));

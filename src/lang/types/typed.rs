@@ -17,6 +17,7 @@ pub(in crate::lang) struct Program {
     pub tasks: Vec<Task>,
     pub scenes: Vec<Scene>,
     pub facts: Vec<super::stated::Fact>,
+    pub studies: Vec<super::studies::Study>,
 }
 
 #[derive(Clone, Debug)]

@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::samples::Sample;
 use crate::geometry::{Camera, Point, Pose};
 use crate::sense::Simulator;
-use crate::sense::raster::Visibility;
+use crate::sense::raster::{Facets, Visibility};
 
 /// Pixels along the edge of a tile.
 const TILE: usize = 4;
@@ -17,6 +17,7 @@ const TILE: usize = 4;
 /// A candidate view and what it shows.
 pub(super) struct View<'a> {
     drawn: Visibility<'a>,
+    facets: Facets,
     camera: &'a Camera,
     world_from_camera: Pose,
     /// Nearest and farthest depth in each tile, by rows of tiles; an empty
@@ -27,9 +28,11 @@ pub(super) struct View<'a> {
 impl<'a> View<'a> {
     pub(super) fn of(simulator: &'a Simulator, camera: &'a Camera, world_from_camera: &Pose) -> Self {
         let drawn = simulator.visibility(camera, world_from_camera);
+        let facets = drawn.facets();
         Self {
-            tiles: tiles(&drawn, camera),
+            tiles: tiles(&drawn, &facets, camera),
             drawn,
+            facets,
             camera,
             world_from_camera: *world_from_camera,
         }
@@ -78,19 +81,20 @@ impl<'a> View<'a> {
         let ray = self.camera.depth.ray(u as f64 + 0.5, v as f64 + 0.5);
         self.camera.range.contains(depth)
             && (ray * depth - at.coords).norm_squared() <= near * near
-            && self.drawn.triangle(k).is_some_and(|(triangle, front)| {
-                front && self.drawn.mesh.vector_area(triangle as usize).dot(&sample.normal) > 0.0
+            && self.facets.at(k).is_some_and(|facet| {
+                let normal = self.drawn.mesh.vector_area(facet.triangle as usize);
+                facet.front && normal.dot(&sample.normal) > 0.0
             })
     }
 }
 
 /// The range of depths on front faces in each tile of an image.
-fn tiles(drawn: &Visibility<'_>, camera: &Camera) -> Vec<(f64, f64)> {
+fn tiles(drawn: &Visibility<'_>, facets: &Facets, camera: &Camera) -> Vec<(f64, f64)> {
     let (width, height) = (camera.depth.width as usize, camera.depth.height as usize);
     let across = width.div_ceil(TILE);
     let mut tiles = vec![(f64::INFINITY, f64::NEG_INFINITY); across * height.div_ceil(TILE)];
     for k in 0..width * height {
-        let front = drawn.triangle(k).is_some_and(|(_, front)| front);
+        let front = facets.at(k).is_some_and(|facet| facet.front);
         if let Some(depth) = drawn.depth(k).filter(|_| front).map(f64::from) {
             let (nearest, farthest) = &mut tiles[k / width / TILE * across + k % width / TILE];
             *nearest = nearest.min(depth);
