@@ -30,22 +30,64 @@ fn tables() -> Vec<Table> {
     let usual = Setting::USUAL;
     let table = |name, varies, settings| Table { name, varies, settings };
     let over = |values: &[f64], with: fn(f64) -> Setting| values.iter().map(|&v| (v.to_string(), with(v))).collect();
-    let large = Setting { space: 2000.0, voxel: 2.0, views: 5000, ..usual };
+    let large = Setting {
+        space: 2000.0,
+        voxel: 2.0,
+        views: 5000,
+        ..usual
+    };
     vec![
-        table("voxel", "voxel, mm", over(&[20.0, 10.0, 5.0, 4.0, 2.5, 2.0], |voxel| Setting { voxel, ..Setting::USUAL })),
-        table("views", "candidate views", over(&[32.0, 100.0, 320.0, 1000.0, 3200.0, 10_000.0], |n| {
-            Setting { views: n as usize, ..Setting::USUAL }
-        })),
-        table("image", "columns of the depth image", over(&[160.0, 320.0, 640.0, 1280.0], |n| {
-            Setting { columns: n as usize, ..Setting::USUAL }
-        })),
-        table("features", "instances of features", over(&[10.0, 30.0, 100.0, 300.0, 500.0], |n| {
-            Setting { features: n as usize, ..Setting::USUAL }
-        })),
-        table("measurements", "views taken", over(&[1.0, 2.0, 4.0, 8.0, 16.0], |n| {
-            Setting { measurements: n as usize, ..Setting::USUAL }
-        })),
-        table("large", "space 2 m, voxel 2 mm, 5,000 views", vec![("2 measurements".into(), Setting { measurements: 2, ..large })]),
+        table(
+            "voxel",
+            "voxel, mm",
+            over(&[20.0, 10.0, 5.0, 4.0, 2.5, 2.0], |voxel| Setting {
+                voxel,
+                ..Setting::USUAL
+            }),
+        ),
+        table(
+            "views",
+            "candidate views",
+            over(&[32.0, 100.0, 320.0, 1000.0, 3200.0, 10_000.0], |n| Setting {
+                views: n as usize,
+                ..Setting::USUAL
+            }),
+        ),
+        table(
+            "image",
+            "columns of the depth image",
+            over(&[160.0, 320.0, 640.0, 1280.0], |n| Setting {
+                columns: n as usize,
+                ..Setting::USUAL
+            }),
+        ),
+        table(
+            "features",
+            "instances of features",
+            over(&[10.0, 30.0, 100.0, 300.0, 500.0], |n| Setting {
+                features: n as usize,
+                ..Setting::USUAL
+            }),
+        ),
+        table(
+            "measurements",
+            "views taken",
+            over(&[1.0, 2.0, 4.0, 8.0, 16.0], |n| Setting {
+                measurements: n as usize,
+                ..Setting::USUAL
+            }),
+        ),
+        table(
+            "large",
+            "space 2 m, voxel 2 mm, 5,000 views",
+            vec![(
+                "2 measurements".into(),
+                Setting {
+                    measurements: 2,
+                    ..large
+                },
+            )],
+        ),
     ]
 }
 
@@ -95,9 +137,16 @@ fn print_tables(names: &[String]) -> Result<(), String> {
 
 fn in_a_process(setting: &Setting) -> Result<Vec<String>, String> {
     let me = std::env::current_exe().map_err(|e| e.to_string())?;
-    let ran = Command::new(me).arg("--one").args(setting.words()).output().map_err(|e| e.to_string())?;
+    let ran = Command::new(me)
+        .arg("--one")
+        .args(setting.words())
+        .output()
+        .map_err(|e| e.to_string())?;
     if !ran.status.success() {
         return Err(String::from_utf8_lossy(&ran.stderr).into_owned());
     }
-    Ok(String::from_utf8_lossy(&ran.stdout).split_whitespace().map(str::to_owned).collect())
+    Ok(String::from_utf8_lossy(&ran.stdout)
+        .split_whitespace()
+        .map(str::to_owned)
+        .collect())
 }

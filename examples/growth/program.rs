@@ -100,7 +100,10 @@ fn place(k: usize, count: usize) -> String {
     let side = k % 4;
     let across = (count.div_ceil(4) as f64).sqrt().ceil();
     let at = |n: f64| 240.0 * ((n + 0.5) / across - 0.5);
-    let (i, j) = (at((k / 4) as f64 % across), at((k as f64 / 4.0 / across).floor() % across));
+    let (i, j) = (
+        at((k / 4) as f64 % across),
+        at((k as f64 / 4.0 / across).floor() % across),
+    );
     match side {
         0 => format!("at: [{i:.1} mm, 150 mm, {:.1} mm], facing: +y", j - 151.0),
         1 => format!("at: [150 mm, {i:.1} mm, {:.1} mm], facing: +x", j - 151.0),

@@ -9,6 +9,7 @@ use crate::primitives::{Envelope, ImageKind};
 #[derive(Clone, Debug)]
 pub struct Viewpoint {
     camera: Camera,
+    world_from_camera: Pose,
     camera_from_world: Pose,
     eye: Point,
 }
@@ -18,9 +19,20 @@ impl Viewpoint {
     pub fn new(camera: Camera, world_from_camera: &Pose) -> Self {
         Self {
             camera,
+            world_from_camera: *world_from_camera,
             camera_from_world: world_from_camera.inverse(),
             eye: Point::from(world_from_camera.translation.vector),
         }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// Its place: `world_from_camera`.
+    pub fn pose(&self) -> &Pose {
+        &self.world_from_camera
     }
 
     /// Where the camera stands, world axes.
