@@ -46,7 +46,9 @@ impl Cost {
     pub fn words(&self) -> Vec<String> {
         let ms = [self.check, self.begin, self.sense, self.map, self.detect, self.score];
         let parts = ms.iter().map(|ms| format!("{ms:.1}"));
-        parts.chain([self.taken.to_string(), format!("{:.0}", self.peak)]).collect()
+        parts
+            .chain([self.taken.to_string(), format!("{:.0}", self.peak)])
+            .collect()
     }
 }
 
@@ -62,13 +64,24 @@ pub fn cost(setting: &Setting) -> Result<Cost, String> {
     let simulator = simulator.map_err(|e| e.to_string())?;
     let (session, begin) = timed(|| Session::new(&rules, &task.name, Options::default()));
     let mut session = session.map_err(|e| e.to_string())?;
-    let mut cost = Cost { check, begin, ..Cost::default() };
-    let sensor = Simulated { simulator: &simulator, camera: task.camera, noise: Noise::None, seed: 0 };
+    let mut cost = Cost {
+        check,
+        begin,
+        ..Cost::default()
+    };
+    let sensor = Simulated {
+        simulator: &simulator,
+        camera: task.camera,
+        noise: Noise::None,
+        seed: 0,
+    };
     let start = session.start();
     let mut turns = ClosedLoop::new(&mut session, sensor, start);
     loop {
         let mut clock = Clock::start();
-        let step = turns.step(&mut |part| clock.lap(part, &mut cost)).map_err(|e| e.to_string())?;
+        let step = turns
+            .step(&mut |part| clock.lap(part, &mut cost))
+            .map_err(|e| e.to_string())?;
         cost.taken += 1;
         if step.is_none_or(|step| matches!(step.decision, Decision::End(_))) {
             break;
