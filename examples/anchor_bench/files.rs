@@ -73,8 +73,9 @@ impl Reader {
         let rows = nalgebra::Matrix3x4::from_row_slice(&self.floats::<12>()?);
         let turn = rows.fixed_columns::<3>(0).into_owned();
         let off = (turn.transpose() * turn - nalgebra::Matrix3::identity()).amax();
-        // So written that what is not a number is refused.
-        if !(off < 1e-3 && turn.determinant() > 0.0 && rows.column(3).amax().is_finite()) {
+        // What is not a number is no rotation.
+        let turns = off < 1e-3 && turn.determinant() > 0.0;
+        if !turns || !rows.column(3).iter().all(|c| c.is_finite()) {
             return Err("a camera-to-world matrix is no rotation and place".to_owned());
         }
         let rotation = nalgebra::Rotation3::from_matrix(&turn);
@@ -116,7 +117,8 @@ pub fn depth_images(path: &Path, most: usize) -> Result<Vec<Observation>, String
     let mut file = Reader::open(path)?;
     let [frames, width, height] = [file.count()?, file.count()?, file.count()?];
     let [fx, fy, cx, cy] = file.floats()?;
-    if !([fx, fy].iter().all(|f| f.is_finite() && *f > 0.0) && [cx, cy].iter().all(|c| c.is_finite())) {
+    let focal = [fx, fy].iter().all(|f| f.is_finite() && *f > 0.0);
+    if !focal || ![cx, cy].iter().all(|c| c.is_finite()) {
         return Err(format!(
             "no camera has focal lengths {fx}, {fy} and its axis at {cx}, {cy}"
         ));
@@ -171,7 +173,7 @@ pub fn mesh(path: &Path) -> Result<Mesh, String> {
     let [vertices, triangles] = [file.count()?, file.count()?];
     let vertex = |file: &mut Reader| {
         let p = Point::from(file.floats::<3>()?);
-        let finite = p.coords.amax().is_finite();
+        let finite = p.iter().all(|c| c.is_finite());
         finite.then_some(p).ok_or_else(|| "a vertex is not a number".to_owned())
     };
     let triangle = |file: &mut Reader| Ok([file.corner(vertices)?, file.corner(vertices)?, file.corner(vertices)?]);
