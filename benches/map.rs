@@ -103,12 +103,19 @@ fn rays(map: &Map) {
     let (counts, ms) = timed(|| views.iter().map(|v| grid.unknown_on_rays(v)).sum::<RayCounts>());
     let (_, distinct) = timed(|| {
         let mut seen = Seen::new(&grid);
-        views.iter().map(|v| grid.distinct_unknown(v, &mut seen)).sum::<RayCounts>()
+        views
+            .iter()
+            .map(|v| grid.distinct_unknown(v, &mut seen))
+            .sum::<RayCounts>()
     });
     let (_, plain) = timed(|| views.iter().flatten().map(|ray| plain_unknown(map, ray)).sum::<u64>());
     let (hits, first) = timed(|| {
         let visibility = map.visibility();
-        views.iter().flatten().filter(|ray| visibility.first_hit(ray).is_some()).count()
+        views
+            .iter()
+            .flatten()
+            .filter(|ray| visibility.first_hit(ray).is_some())
+            .count()
     });
     let number = views.iter().map(Vec::len).sum::<usize>() as f64;
     println!("  planning grid {made:.2} ms");
@@ -118,7 +125,11 @@ fn rays(map: &Map) {
         plain / ms,
         distinct * 1e6 / counts.steps as f64
     );
-    println!("  first hits: {:.0} ns a ray, {:.1} x the walk, {hits} hits", first * 1e6 / number, ms / first);
+    println!(
+        "  first hits: {:.0} ns a ray, {:.1} x the walk, {hits} hits",
+        first * 1e6 / number,
+        ms / first
+    );
 }
 
 fn plain_unknown(map: &Map, ray: &Ray) -> u64 {
@@ -134,7 +145,10 @@ fn centres(map: &Map, targets: &[Voxel], eyes: &[Point]) {
     let set = VoxelSet::of(map.grid(), targets);
     let (exact, lines) = timed(|| seen(map, eyes, targets, 0.0));
     let (count, ms) = timed(|| {
-        let view = |eye: &Point| map.centre_view(&image, range, &look_at(*eye, Point::origin())).count(&set);
+        let view = |eye: &Point| {
+            map.centre_view(&image, range, &look_at(*eye, Point::origin()))
+                .count(&set)
+        };
         eyes.iter().map(view).sum::<u64>()
     });
     println!(

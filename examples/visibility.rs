@@ -48,7 +48,9 @@ fn main() -> Result<(), Failure> {
     let file = arguments.next().ok_or("which program?")?;
     let starts = arguments.next().map_or(Ok(4), |n| n.parse::<usize>())?;
     let method = arguments.next();
-    let rules = lang::compile(&file, &Disk).rules.ok_or("the program has errors; see `vpl check`")?;
+    let rules = lang::compile(&file, &Disk)
+        .rules
+        .ok_or("the program has errors; see `vpl check`")?;
     let scene = rules.scenes.first().ok_or("the program needs a scene")?;
     println!("| object | decisions | same view | one of the next three | worth | another | ends apart |");
     println!("|---|--:|--:|--:|--:|--:|--:|");
@@ -82,7 +84,10 @@ fn of_object(
         Session::new(&rules, &rules.tasks[0].name, options)
     };
     let of_start = |k: usize| {
-        let (exact, centre) = (session(Visibility::Exact, k as u64)?, session(Visibility::Centre, k as u64)?);
+        let (exact, centre) = (
+            session(Visibility::Exact, k as u64)?,
+            session(Visibility::Centre, k as u64)?,
+        );
         let start = k * exact.views().len() / starts;
         let sensor = Simulated {
             simulator: &simulator,
@@ -92,11 +97,19 @@ fn of_object(
         };
         of_run(exact, centre, sensor, start)
     };
-    let tallies: Vec<Tally> = (0..starts).into_par_iter().map(of_start).collect::<Result<_, Failure>>()?;
+    let tallies: Vec<Tally> = (0..starts)
+        .into_par_iter()
+        .map(of_start)
+        .collect::<Result<_, Failure>>()?;
     Ok(tallies.into_iter().fold(Tally::default(), Tally::and))
 }
 
-fn of_run(mut exact: Session, mut centre: Session, mut sensor: Simulated<'_>, mut view: usize) -> Result<Tally, Failure> {
+fn of_run(
+    mut exact: Session,
+    mut centre: Session,
+    mut sensor: Simulated<'_>,
+    mut view: usize,
+) -> Result<Tally, Failure> {
     let mut tally = Tally::default();
     for n in 1.. {
         let pose = exact.views()[view];

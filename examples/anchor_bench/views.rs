@@ -63,7 +63,9 @@ pub fn distinct(arguments: &Arguments) -> Result<Vec<Value>, String> {
     let rays = rays(arguments);
     let (counts, took) = timed(|| {
         let grid = map.planning_grid();
-        let views = rays.par_iter().with_min_len(rays.len().div_ceil(arguments.threads.max(1)));
+        let views = rays
+            .par_iter()
+            .with_min_len(rays.len().div_ceil(arguments.threads.max(1)));
         let count = |seen: &mut Seen, rays: &Vec<Ray>| grid.distinct_unknown(rays, seen);
         views.map_init(|| Seen::new(&grid), count).sum()
     });
@@ -78,14 +80,23 @@ pub fn first(arguments: &Arguments) -> Result<Vec<Value>, String> {
         let visibility = map.visibility();
         let hits = |rays: &Vec<Ray>| rays.iter().filter(|ray| visibility.first_hit(ray).is_some()).count();
         let hits = rays.par_iter().map(hits).sum::<usize>() as u64;
-        RayCounts { hits, ..RayCounts::default() }
+        RayCounts {
+            hits,
+            ..RayCounts::default()
+        }
     });
     Ok(vec![line(arguments, "thru", mode, number(&rays), counts, took)])
 }
 
 /// Counts by the centres of voxels. Steps are the voxels that were asked for.
 fn centres(arguments: &Arguments, map: &Map) -> RayCounts {
-    let (image, range) = (image(arguments), DepthRange { min: 0.0, max: f64::from(f32::MAX) });
+    let (image, range) = (
+        image(arguments),
+        DepthRange {
+            min: 0.0,
+            max: f64::from(f32::MAX),
+        },
+    );
     let unknown = map.unknown();
     let of_view = |pose: &Pose| map.centre_view(&image, range, pose).count(&unknown);
     RayCounts {
@@ -108,7 +119,9 @@ fn map(arguments: &Arguments) -> Result<Map, String> {
         map.of_occupancy_alone()
     } else {
         let ends = clouds.iter().flat_map(|c| c.points.iter().copied().chain([c.eye]));
-        let eyes = poses(arguments.images.views).into_iter().map(|p| Point::from(p.translation.vector));
+        let eyes = poses(arguments.images.views)
+            .into_iter()
+            .map(|p| Point::from(p.translation.vector));
         map_of(files::extent(ends.chain(eyes)), arguments.res)?
     };
     clouds.iter().for_each(|c| {
@@ -135,7 +148,10 @@ fn poses(count: u32) -> Vec<Pose> {
     let turn = std::f64::consts::PI * (1.0 + 5_f64.sqrt());
     let pose = |i: u32| {
         let place = f64::from(i) + 0.5;
-        let (z, angle) = (1.0 - 2.0 * place / f64::from(count), turn * place + std::f64::consts::PI);
+        let (z, angle) = (
+            1.0 - 2.0 * place / f64::from(count),
+            turn * place + std::f64::consts::PI,
+        );
         let across = (1.0 - z * z).sqrt();
         looking_at_the_centre(Point::new(across * angle.cos(), across * angle.sin(), z) * RADIUS)
     };
@@ -145,7 +161,11 @@ fn poses(count: u32) -> Vec<Pose> {
 /// As the harnesses have it: y is up where the view is steeper than 0.95.
 fn looking_at_the_centre(eye: Point) -> Pose {
     let forward = -eye.coords.normalize();
-    let up = if forward.z.abs() < 0.95 { Vector::z() } else { Vector::y() };
+    let up = if forward.z.abs() < 0.95 {
+        Vector::z()
+    } else {
+        Vector::y()
+    };
     let right = forward.cross(&up).normalize();
     let axes = nalgebra::Matrix3::from_columns(&[right, forward.cross(&right), forward]);
     let rotation = nalgebra::Rotation3::from_matrix_unchecked(axes);

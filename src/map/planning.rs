@@ -127,7 +127,9 @@ impl PlanningGrid {
     #[inline(always)]
     pub fn walk(&self, ray: &Ray, mut visit: impl FnMut(Voxel, State) -> bool) {
         let state = |voxel: Voxel| self.states.get(voxel.0 as usize);
-        self.walk_numbers(ray, |voxel| state(voxel).is_some_and(|state| visit(voxel, State(*state))));
+        self.walk_numbers(ray, |voxel| {
+            state(voxel).is_some_and(|state| visit(voxel, State(*state)))
+        });
     }
 
     /// The same without looking at the states.
