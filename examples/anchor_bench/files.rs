@@ -19,24 +19,42 @@ use vpl::sense::{ColourImage, DepthImage, Mesh, Observation, Paint};
 /// Of an image, a side.
 const MOST_PIXELS: usize = 16_384;
 
-/// Reads the file's values one after the other.
-struct Reader(BufReader<File>);
+/// Reads the file's values one after the other. A count is believed only as far
+/// as the file goes: a file of garbage asks for no memory.
+struct Reader {
+    file: BufReader<File>,
+    /// Words not read yet.
+    left: u64,
+}
 
 impl Reader {
     fn open(path: &Path) -> Result<Self, String> {
-        File::open(path)
-            .map(|f| Self(BufReader::new(f)))
-            .map_err(|e| e.to_string())
+        let file = File::open(path).map_err(|e| e.to_string())?;
+        let bytes = file.metadata().map_err(|e| e.to_string())?.len();
+        Ok(Self {
+            file: BufReader::new(file),
+            left: bytes / 4,
+        })
     }
 
     fn word(&mut self) -> Result<[u8; 4], String> {
         let mut bytes = [0; 4];
-        let read = self.0.read_exact(&mut bytes);
+        self.left = self.left.saturating_sub(1);
+        let read = self.file.read_exact(&mut bytes);
         read.map(|()| bytes).map_err(|_| "the file ends too early".to_owned())
     }
 
     fn count(&mut self) -> Result<usize, String> {
         self.word().map(|bytes| u32::from_le_bytes(bytes) as usize)
+    }
+
+    /// A count of things that have so many words each.
+    fn count_of(&mut self, what: &str, words: u64) -> Result<usize, String> {
+        let count = self.count()?;
+        if count as u64 * words > self.left {
+            return Err(format!("the file ends before its {count} {what}"));
+        }
+        Ok(count)
     }
 
     fn float(&mut self) -> Result<f32, String> {
@@ -55,8 +73,9 @@ impl Reader {
         let rows = nalgebra::Matrix3x4::from_row_slice(&self.floats::<12>()?);
         let turn = rows.fixed_columns::<3>(0).into_owned();
         let off = (turn.transpose() * turn - nalgebra::Matrix3::identity()).amax();
-        // So written that what is not a number is refused.
-        if !(off < 1e-3 && turn.determinant() > 0.0 && rows.column(3).amax().is_finite()) {
+        // What is not a number is no rotation.
+        let turns = off < 1e-3 && turn.determinant() > 0.0;
+        if !turns || !rows.column(3).iter().all(|c| c.is_finite()) {
             return Err("a camera-to-world matrix is no rotation and place".to_owned());
         }
         let rotation = nalgebra::Rotation3::from_matrix(&turn);
@@ -80,10 +99,10 @@ pub struct Cloud {
 /// Clouds of a `.vpc` file, the first `most` of them unless that is 0.
 pub fn clouds(path: &Path, most: usize) -> Result<Vec<Cloud>, String> {
     let mut file = Reader::open(path)?;
-    let frames = file.count()?;
+    let frames = file.count_of("clouds", 13)?;
     let cloud = |file: &mut Reader| {
         let eye = Point::from(file.pose()?.translation.vector);
-        let n = file.count()?;
+        let n = file.count_of("points of a cloud", 3)?;
         let points = (0..n).map(|_| file.floats::<3>().map(Point::from));
         Ok(Cloud {
             eye,
@@ -98,7 +117,8 @@ pub fn depth_images(path: &Path, most: usize) -> Result<Vec<Observation>, String
     let mut file = Reader::open(path)?;
     let [frames, width, height] = [file.count()?, file.count()?, file.count()?];
     let [fx, fy, cx, cy] = file.floats()?;
-    if !([fx, fy].iter().all(|f| f.is_finite() && *f > 0.0) && [cx, cy].iter().all(|c| c.is_finite())) {
+    let focal = [fx, fy].iter().all(|f| f.is_finite() && *f > 0.0);
+    if !focal || ![cx, cy].iter().all(|c| c.is_finite()) {
         return Err(format!(
             "no camera has focal lengths {fx}, {fy} and its axis at {cx}, {cy}"
         ));
@@ -106,6 +126,12 @@ pub fn depth_images(path: &Path, most: usize) -> Result<Vec<Observation>, String
     if !(1..=MOST_PIXELS).contains(&width) || !(1..=MOST_PIXELS).contains(&height) {
         return Err(format!(
             "an image has 1 to {MOST_PIXELS} pixels a side, not {width} x {height}"
+        ));
+    }
+    let pixels = width as u64 * height as u64;
+    if (pixels + 12).saturating_mul(frames as u64) > file.left {
+        return Err(format!(
+            "the file ends before its {frames} images of {width} × {height} pixels"
         ));
     }
     let image = Intrinsics {
@@ -147,7 +173,7 @@ pub fn mesh(path: &Path) -> Result<Mesh, String> {
     let [vertices, triangles] = [file.count()?, file.count()?];
     let vertex = |file: &mut Reader| {
         let p = Point::from(file.floats::<3>()?);
-        let finite = p.coords.amax().is_finite();
+        let finite = p.iter().all(|c| c.is_finite());
         finite.then_some(p).ok_or_else(|| "a vertex is not a number".to_owned())
     };
     let triangle = |file: &mut Reader| Ok([file.corner(vertices)?, file.corner(vertices)?, file.corner(vertices)?]);
@@ -169,8 +195,9 @@ fn at_most(frames: usize, most: usize) -> usize {
     if most == 0 { frames } else { frames.min(most) }
 }
 
-/// Eyes and measured points, which a space has to hold.
+/// The box of eyes and measured points, which a space has to hold.
 pub fn extent(points: impl Iterator<Item = Point>) -> (Point, Point) {
     let none = (Point::from([f64::INFINITY; 3]), Point::from([f64::NEG_INFINITY; 3]));
-    points.fold(none, |(low, high), p| (low.inf(&p), high.sup(&p)))
+    let finite = points.filter(|p| p.iter().all(|c| c.is_finite()));
+    finite.fold(none, |(low, high), p| (low.inf(&p), high.sup(&p)))
 }

@@ -10,8 +10,6 @@
 //! measurements; memory is the most that the process has held. `--program` before a
 //! line's six numbers prints its program.
 
-#[path = "../anchor_bench/meter.rs"]
-#[allow(dead_code)]
 mod meter;
 mod program;
 mod run;

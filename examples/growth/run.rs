@@ -6,7 +6,7 @@ use vpl::lang::{Memory, compile};
 use vpl::plan::{ClosedLoop, Decision, Options, Part, Phase, Session, Simulated};
 use vpl::sense::{Noise, Simulator};
 
-use super::meter::{Took, peak_mb, timed};
+use super::meter::{Clock, peak_mb, timed};
 use super::program::Setting;
 
 /// What a run cost: milliseconds of the process, the parts' a measurement.
@@ -34,6 +34,15 @@ impl Cost {
         "memory, MB",
     ];
 
+    pub fn of(&mut self, part: Part) -> &mut f64 {
+        match part {
+            Part::Sense => &mut self.sense,
+            Part::Session(Phase::Map) => &mut self.map,
+            Part::Session(Phase::Detect) => &mut self.detect,
+            Part::Session(Phase::Score) => &mut self.score,
+        }
+    }
+
     pub fn words(&self) -> Vec<String> {
         let ms = [self.check, self.begin, self.sense, self.map, self.detect, self.score];
         let parts = ms.iter().map(|ms| format!("{ms:.1}"));
@@ -56,8 +65,8 @@ pub fn cost(setting: &Setting) -> Result<Cost, String> {
     let (session, begin) = timed(|| Session::new(&rules, &task.name, Options::default()));
     let mut session = session.map_err(|e| e.to_string())?;
     let mut cost = Cost {
-        check: ms(check),
-        begin: ms(begin),
+        check,
+        begin,
         ..Cost::default()
     };
     let sensor = Simulated {
@@ -69,7 +78,7 @@ pub fn cost(setting: &Setting) -> Result<Cost, String> {
     let start = session.start();
     let mut turns = ClosedLoop::new(&mut session, sensor, start);
     loop {
-        let mut clock = Clock::default();
+        let mut clock = Clock::start();
         let step = turns
             .step(&mut |part| clock.lap(part, &mut cost))
             .map_err(|e| e.to_string())?;

@@ -7,9 +7,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use gungraun::{
-    Callgrind, EventKind, LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main,
-};
+use gungraun::{Callgrind, EventKind, LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 use vpl::detect::Scan;
 use vpl::geometry::{Point, Pose};
 use vpl::lang::{Memory, compile};
@@ -50,7 +48,11 @@ static SCENE: LazyLock<Scene> = LazyLock::new(|| {
     let (scene, task) = (&rules.scenes[0], &rules.tasks[0]);
     let simulator = Simulator::new(&scene.objects[0], scene.backdrop, &task.space, Path::new("")).unwrap();
     let poses = session(&rules).views().to_vec();
-    Scene { rules, simulator, poses }
+    Scene {
+        rules,
+        simulator,
+        poses,
+    }
 });
 
 fn session(rules: &RuleSet) -> Session {
