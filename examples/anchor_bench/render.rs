@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
-use vpl::geometry::{Bounds, Pose, Vector};
+use vpl::geometry::{Pose, Vector};
 use vpl::rules::Space;
-use vpl::sense::{DepthImage, Mesh, Noise, Observation, Simulator};
+use vpl::sense::{DepthImage, Mesh, Noise, Simulator};
 
 use super::meter::timed;
 use super::{Arguments, files};
@@ -45,4 +45,48 @@ pub fn depth(arguments: &Arguments) -> Result<Vec<Value>, String> {
         "differing_pixels": compared.differing,
         "worst_m": compared.worst,
     })])
+}
+
+/// The file of depth images: the one named, or the mesh's own beside it where a
+/// voxel's edge stands in its place.
+fn images(arguments: &Arguments) -> PathBuf {
+    match arguments.against.parse::<f64>() {
+        Ok(_) => arguments.file.with_extension("vdi"),
+        Err(_) => PathBuf::from(&arguments.against),
+    }
+}
+
+/// A model space around a mesh: rendering needs one, and does not depend on it.
+fn around(mesh: &Mesh) -> Space {
+    let bounds = mesh.bounds();
+    Space {
+        centre: nalgebra::center(&bounds.min, &bounds.max),
+        size: bounds.size() + Vector::repeat(0.1),
+        voxel: 0.01,
+    }
+}
+
+/// How drawn images differ from stored ones.
+#[derive(Default)]
+struct Compared {
+    /// Drawn pixels that show the mesh.
+    hit: usize,
+    differing: usize,
+    /// The most that others differ, metres.
+    worst: f32,
+}
+
+impl Compared {
+    fn add(&mut self, drawn: &DepthImage, stored: &DepthImage) {
+        for (&drawn, &stored) in drawn.metres.iter().zip(&stored.metres) {
+            let apart = (drawn - stored).abs();
+            self.hit += usize::from(drawn > 0.0);
+            // So written that a reading that is not a number differs.
+            if (drawn > 0.0) == (stored > 0.0) && apart <= OFF {
+                self.worst = self.worst.max(apart);
+            } else {
+                self.differing += 1;
+            }
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! `vpl study`: many objects × methods × starts, and what they say.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::Args;
@@ -65,7 +65,13 @@ pub(crate) fn run(options: &Study) -> Result<Outcome, Failure> {
     }
     let usual = || PathBuf::from(format!("study-{}", design.study.name));
     let folder = options.out.clone().unwrap_or_else(usual);
-    let mut ledger = Ledger::open(&folder, Manifest::of(&design), shard)?;
+    let waiting = |file: &Path| {
+        let _ = report(&format!(
+            "waiting for another vpl that writes to `{}`\n",
+            file.display()
+        ));
+    };
+    let mut ledger = Ledger::open(&folder, Manifest::of(&design), shard, waiting)?;
     for other in &options.merge {
         ledger.take_in(other)?;
     }

@@ -75,7 +75,9 @@ pub fn words(statement: &str) -> &'static [&'static str] {
         "method" | "methods" => task::METHODS,
         "noise" => studies::NOISES,
         "inspected" => task::INSPECTED,
+        "visibility" => task::VISIBILITY,
         "verify" => task::VERIFY,
+        "insertion" => task::INSERTION,
         _ => &[],
     }
 }

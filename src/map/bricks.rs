@@ -9,8 +9,8 @@ use super::log_odds::{LogOdds, UNKNOWN};
 use super::marks::{Marked, Marks};
 use super::table::{Entry, Table};
 
-/// Chunks of marks that are applied together, so that threads have enough to do.
-const BATCH: usize = 16;
+/// Chunks of marks that are applied together, a thread.
+const BATCH: usize = 2;
 
 /// All bricks of a layout.
 #[derive(Clone, Debug)]
@@ -101,16 +101,18 @@ impl Bricks {
     /// Ends a frame: every voxel that was marked changes once.
     pub fn apply(&mut self, marks: Marks, layout: &Layout, model: &LogOdds) {
         let mut chunks = marks.into_chunks();
+        let (mut batch, most) = (Vec::new(), BATCH * rayon::current_num_threads());
         loop {
-            let mut batch: Vec<_> = chunks.by_ref().take(BATCH).flatten().map(|m| self.take(m)).collect();
+            for chunk in chunks.by_ref().take(most) {
+                batch.reserve(chunk.len());
+                batch.extend(chunk.into_iter().map(|marked| self.take(marked)));
+            }
             if batch.is_empty() {
                 return;
             }
-            batch
-                .par_iter_mut()
-                .with_min_len(64)
-                .for_each(|due| due.apply(layout, model));
-            batch.into_iter().for_each(|due| self.put(due));
+            let parts = batch.par_iter_mut().with_min_len(64);
+            parts.for_each(|due| due.apply(layout, model));
+            batch.drain(..).for_each(|due| self.put(due));
         }
     }
 

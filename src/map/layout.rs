@@ -175,7 +175,10 @@ mod tests {
             let inside = layout.inside(brick);
             let listed = seen.iter().filter(|a| a.brick() == brick);
             assert!(listed.clone().all(|a| inside[a.word()] & a.bit() != 0));
-            assert_eq!(listed.count() as u32, inside.iter().map(|w| w.count_ones()).sum());
+            assert_eq!(
+                listed.count() as u32,
+                inside.iter().map(|w| w.count_ones()).sum::<u32>()
+            );
         }
         seen.sort_unstable();
         seen.dedup();

@@ -283,7 +283,8 @@ impl Map {
 
     /// Free and occupied voxels, ascending.
     pub fn measured(&self) -> Vec<Voxel> {
-        self.voxels_where(|b| b.known)
+        let measured = self.bricks.states(&self.model).map(|b| (b.index, b.known));
+        self.voxels(measured)
     }
 
     /// Pre-occupied voxels, ascending.

@@ -286,17 +286,18 @@ fn widen(span: &mut [[f32; 8]; 2], i: usize, value: f32) {
     span[1][i] = if value > span[1][i] { value } else { span[1][i] };
 }
 
-/// The nearest whole number of one from 0 to 2²³, which adding 2²³ leaves in the
-/// mantissa; a large number for any other. (`as` is several instructions.)
+/// The nearest whole number, of one that lies within 2²²: adding 1.5 · 2²³ leaves it in
+/// the mantissa. A large number for any other and for a negative one. (`as` is
+/// several instructions.)
 #[inline(always)]
 fn pixel(coordinate: f32) -> u32 {
-    (coordinate + 8_388_608.0).to_bits().wrapping_sub(0x4b00_0000)
+    (coordinate + 12_582_912.0).to_bits().wrapping_sub(0x4b40_0000)
 }
 
-/// A depth image without infinities, which are no readings.
+/// A depth image in which a pixel without a reading is 0.
 fn readable(metres: &[f32]) -> Cow<'_, [f32]> {
-    let infinite = metres.iter().fold(false, |any, z| any | (z.abs() == f32::INFINITY));
-    if !infinite {
+    let odd = metres.iter().fold(false, |any, z| any | !z.is_finite());
+    if !odd {
         return Cow::Borrowed(metres);
     }
     let readings = metres.iter().map(|&z| if z.is_finite() { z } else { 0.0 });

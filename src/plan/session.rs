@@ -13,6 +13,7 @@ use super::completion::{self, Completion, Outcome};
 use super::error::PlanError;
 use super::instances::Finding;
 use super::knowledge::Knowledge;
+use super::look::Targets;
 use super::methods::{self, Method, Rank, Situation};
 use super::reasoning::{self, Proofs};
 use super::report::{self, Decision, Next, Standing, Terms, Update};
@@ -24,7 +25,7 @@ use crate::detect::{self, Condition, Scan};
 use crate::geometry::{Camera, Point, Pose};
 use crate::map::{Map, Tag};
 use crate::primitives::{Arguments, poses};
-use crate::rules::{BadArgument, Library, Rule, RuleSet, Task};
+use crate::rules::{BadArgument, Insertion, Library, Rule, RuleSet, Task};
 use crate::sense::Observation;
 
 /// How a run differs from what its task says.
@@ -182,7 +183,10 @@ impl Session {
         ended: &mut dyn FnMut(Phase),
     ) -> Result<Update, PlanError> {
         self.check(view, observation)?;
-        let points = self.map.insert(observation);
+        let points = match self.task().insertion {
+            Insertion::Exact => self.map.insert(observation),
+            Insertion::Projective => self.map.insert_projected(observation),
+        };
         self.visited[view] = true;
         let pose = &observation.world_from_camera;
         self.status.visited.push(Viewpoint::new(observation.camera, pose));
@@ -283,7 +287,7 @@ impl Session {
         let Some(choice) = self.method.choose(&situation, &mut self.random) else {
             return self.end(Outcome::Exhausted, completion, gains);
         };
-        let rear = self.map.rear_side();
+        let rear = Targets::of(&self.map, self.map.rear_side());
         let standing = |rank: &Rank| {
             let (view, gain) = (gains.views[rank.position], &gains.feature[rank.position]);
             Standing {
@@ -292,7 +296,7 @@ impl Session {
                 terms: Terms {
                     overlap: rank.overlap,
                     feature: gain.bits,
-                    surface: score::surface_gain(&self.map, &self.candidates[view], &rear, &self.knowledge),
+                    surface: score::surface_gain(&situation.look(rank.position), &rear, &self.knowledge),
                     w: gains.w,
                 },
                 share: rank.share,

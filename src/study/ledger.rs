@@ -56,11 +56,18 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// Opens a folder, a new one too, for the rows of a shard.
+    /// Opens a folder, a new one too, for the rows of a shard. Where another process
+    /// writes the same rows, `waiting` is called and its end awaited: of a campaign's
+    /// worker that died, the last run may be still on its way.
     ///
     /// # Errors
-    /// It cannot be written, holds something else, or another process writes there.
-    pub fn open(folder: &Path, manifest: Manifest, shard: Shard) -> Result<Self, StudyError> {
+    /// It cannot be written, or holds something else.
+    pub fn open(
+        folder: &Path,
+        manifest: Manifest,
+        shard: Shard,
+        waiting: impl FnOnce(&Path),
+    ) -> Result<Self, StudyError> {
         fs::create_dir_all(folder).map_err(|e| unwritable(folder, e))?;
         claim(folder, &manifest)?;
         let name = match shard.of {
@@ -75,11 +82,10 @@ impl Ledger {
             .truncate(false)
             .open(&path)
             .map_err(|e| unwritable(&path, e))?;
-        match out.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(refused(&path, "is being written by another vpl")),
-            // A file system without locks: two that write there is the user's business.
-            Err(TryLockError::Error(_)) => {}
+        // On a file system without locks, two that write there are the user's business.
+        if let Err(TryLockError::WouldBlock) = out.try_lock() {
+            waiting(&path);
+            out.lock().map_err(|e| unwritable(&path, e))?;
         }
         mend(&mut out, &path)?;
         let mut ledger = Self {

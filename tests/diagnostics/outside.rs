@@ -112,6 +112,15 @@ fn recordings_and_maps() {
     fs::create_dir_all(at.join("desk")).unwrap();
     fs::write(at.join("desk/notes.txt"), "frames to come").unwrap();
     says("E0611", &at, "desk: a folder with a text file", "inspect desk");
-    fs::write(at.join("half.bt"), "# Octomap OcTree binary file\nid OcTree\nsize 3\nres 0.1\ndata\n\u{1}").unwrap();
-    says("E0612", &at, "half.bt: a tree of three nodes that ends in the first", "inspect half.bt");
+    fs::write(
+        at.join("half.bt"),
+        "# Octomap OcTree binary file\nid OcTree\nsize 3\nres 0.1\ndata\n\u{1}",
+    )
+    .unwrap();
+    says(
+        "E0612",
+        &at,
+        "half.bt: a tree of three nodes that ends in the first",
+        "inspect half.bt",
+    );
 }

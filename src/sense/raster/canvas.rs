@@ -87,12 +87,12 @@ impl Canvas {
             else {
                 return;
             };
-            for column in 0..W {
+            for (column, shown) in shown.iter_mut().enumerate() {
                 let weight = |k: usize| fill.here[k] + row as i64 * fill.down[k] + column as i64 * fill.right[k];
                 let here = [weight(0), weight(1), weight(2)];
                 let inside = here[0] | here[1] | here[2] >= 0;
                 let near = pixel(fill.mean(here) as f32, triangle);
-                shown[column] = shown[column].max(if inside { near } else { 0 });
+                *shown = (*shown).max(if inside { near } else { 0 });
             }
         }
     }
@@ -234,8 +234,8 @@ pub(super) fn triangle(pixel: Pixel) -> u32 {
 
 #[inline]
 fn add(here: &mut [i64; 3], step: &[i64; 3]) {
-    for k in 0..3 {
-        here[k] += step[k];
+    for (here, step) in here.iter_mut().zip(step) {
+        *here += step;
     }
 }
 

@@ -75,19 +75,13 @@ impl Screen {
     pub(super) fn corner(&self, p: &Point) -> Corner {
         let [x, y, z] = self.homogeneous(p);
         let reach = REACH * z;
-        // So written that what is not a number is outside.
-        let outside = [
-            !(z >= NEAREST),
-            !(x >= -reach),
-            !(x <= reach),
-            !(y >= -reach),
-            !(y <= reach),
-        ];
+        // What is not a number is not inside.
+        let inside = [z >= NEAREST, x >= -reach, x <= reach, y >= -reach, y <= reach];
         let inverse = 1.0 / z;
         Corner {
             at: [x, y].map(|c| snap(c * inverse)),
             inverse: inverse as f32,
-            outside: bits(outside),
+            outside: bits(inside.map(|inside| !inside)),
         }
     }
 
