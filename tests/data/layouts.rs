@@ -4,9 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use vpl::geometry::{Intrinsics, Pose, Rotation, Vector};
+use vpl::map::OctoMap;
 use vpl::sense::Observation;
 use vpl::sense::frames::{FrameOptions, Recording};
 
+use crate::octomap::voxels;
 use crate::ros;
 use crate::scene::{self, LAYOUTS};
 use crate::support::{folder, inspect};
@@ -76,21 +78,28 @@ fn every_layout_gives_the_frames_that_were_written() {
     }
 }
 
-/// The same readings and poses are the same map, whatever they came in.
+/// The same readings and poses are the same map, whatever they came in: quaternions
+/// and matrices round differently, which decides a few voxels.
 #[test]
 fn the_map_does_not_depend_on_the_layout() {
     let frames = scene::frames();
-    let mut first: Option<Vec<u8>> = None;
+    let mut first = None;
     for (layout, path) in written("maps", &frames) {
         let out = path.with_extension("bt");
         let map = ["--voxel", "20mm", "--map", out.to_str().unwrap()];
         let ran = inspect(&path, &[scene::options(layout), &map].concat()).expect(0, &["frames agree", "no reading"]);
         assert!(ran.err.is_empty(), "{layout}: {}", ran.err);
-        if !matches!(layout, "tum" | "visp") {
-            let bytes = fs::read(&out).unwrap();
-            assert!(bytes.len() > 500, "{layout}");
-            assert!(*first.get_or_insert_with(|| bytes.clone()) == bytes, "{layout}");
+        if matches!(layout, "tum" | "visp") {
+            continue; // in other units of depth
         }
+        let voxels = voxels(&OctoMap::read(&fs::read(&out).unwrap()).unwrap());
+        let first = first.get_or_insert_with(|| voxels.clone());
+        let other = voxels.iter().filter(|(key, x)| first.get(*key) != Some(*x)).count();
+        assert!(
+            voxels.len() > 10_000 && other * 1000 < voxels.len(),
+            "{layout}: {other} of {}",
+            voxels.len()
+        );
     }
 }
 

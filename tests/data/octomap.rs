@@ -63,8 +63,8 @@ fn expected(map: &Map) -> BTreeMap<[u32; 3], f64> {
 #[test]
 fn files_hold_every_measured_voxel() {
     let map = map();
-    let states = voxels(&OctoMap::read(&written(&map, |m, out| write_bt(m, out))).unwrap());
-    let tree = OctoMap::read(&written(&map, |m, out| write_ot(m, out))).unwrap();
+    let states = voxels(&OctoMap::read(&written(&map, write_bt)).unwrap());
+    let tree = OctoMap::read(&written(&map, write_ot)).unwrap();
     let (odds, expected) = (voxels(&tree), expected(&map));
     assert!(expected.len() > 10_000);
     assert!(expected.keys().eq(states.keys()) && expected.keys().eq(odds.keys()));
@@ -87,10 +87,7 @@ fn an_empty_map_is_an_empty_tree() {
         ..*simple()
     };
     let map = Map::new(&space, SensorModel::default()).unwrap();
-    for bytes in [
-        written(&map, |m, out| write_bt(m, out)),
-        written(&map, |m, out| write_ot(m, out)),
-    ] {
+    for bytes in [written(&map, write_bt), written(&map, write_ot)] {
         let tree = OctoMap::read(&bytes).unwrap();
         assert!(tree.leaves.is_empty() && tree.nodes == 0);
     }
@@ -108,10 +105,7 @@ fn simple() -> Box<Space> {
 /// Every prefix of a file is refused, and so is a tree that is too deep.
 #[test]
 fn a_broken_tree_is_refused() {
-    for bytes in [
-        written(&map(), |m, out| write_bt(m, out)),
-        written(&map(), |m, out| write_ot(m, out)),
-    ] {
+    for bytes in [written(&map(), write_bt), written(&map(), write_ot)] {
         for length in (0..bytes.len() - 1).step_by(97) {
             assert!(OctoMap::read(&bytes[..length]).is_err(), "{length}");
         }
@@ -145,8 +139,8 @@ fn octomaps_tools_read_ours_and_we_theirs() {
         return;
     }
     let (base, map) = (folder("octomap"), map());
-    fs::write(base.join("ours.bt"), written(&map, |m, out| write_bt(m, out))).unwrap();
-    fs::write(base.join("ours.ot"), written(&map, |m, out| write_ot(m, out))).unwrap();
+    fs::write(base.join("ours.bt"), written(&map, write_bt)).unwrap();
+    fs::write(base.join("ours.ot"), written(&map, write_ot)).unwrap();
     let read = |name: &str| OctoMap::read(&fs::read(base.join(name)).unwrap()).unwrap();
     for (from, to) in [
         ("ours.bt", "from_bt.ot"),

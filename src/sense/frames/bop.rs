@@ -129,8 +129,8 @@ fn recording(path: &Path, stated: &Stated, shots: Vec<Shot>, notes: Vec<String>)
         let (size, colour_size) = match sizes {
             Some(known) => known,
             None => {
-                let of_colour = colour.as_deref().map(picture::colour).transpose()?;
-                (picture::depth(&depth)?.size, of_colour.map(|c| [c.width, c.height]))
+                let of_colour = colour.as_deref().map(picture::size).transpose()?;
+                (picture::size(&depth)?, of_colour)
             }
         };
         sizes = Some((size, colour_size));

@@ -3,6 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use zune_jpeg::JpegDecoder;
 use zune_ppm::PPMDecoder;
 use zune_ppm::zune_core::bytestream::ZCursor;
 use zune_ppm::zune_core::options::DecoderOptions;
@@ -96,6 +97,32 @@ pub(super) fn colour(path: &Path) -> Result<ColourImage, FrameError> {
     colour_of(&files::bytes(path)?).map_err(|what| FrameError::malformed(path, what))
 }
 
+/// Columns and rows of a picture, by its header alone.
+pub(super) fn size(path: &Path) -> Result<[u32; 2], FrameError> {
+    let bytes = files::bytes(path)?;
+    let size = if bytes.starts_with(b"\x89PNG") {
+        png_size(&bytes)
+    } else if bytes.starts_with(b"P5") || bytes.starts_with(b"P6") {
+        pnm_header(&bytes).map(|(size, _)| size)
+    } else {
+        jpeg_size(&bytes)
+    };
+    size.map_err(|what| FrameError::malformed(path, what))
+}
+
+fn png_size(bytes: &[u8]) -> Result<[u32; 2], String> {
+    let reader = png::Decoder::new(Cursor::new(bytes)).read_info();
+    let reader = reader.map_err(|e| e.to_string())?;
+    Ok([reader.info().width, reader.info().height])
+}
+
+fn jpeg_size(bytes: &[u8]) -> Result<[u32; 2], String> {
+    let mut decoder = JpegDecoder::new(ZCursor::new(bytes));
+    decoder.decode_headers().map_err(|e| e.to_string())?;
+    let (width, height) = decoder.dimensions().ok_or("a JPEG image without a size")?;
+    Ok([width as u32, height as u32])
+}
+
 /// The colour picture in some bytes.
 pub(super) fn colour_of(bytes: &[u8]) -> Result<ColourImage, String> {
     if !bytes.starts_with(b"P5") && !bytes.starts_with(b"P6") {
@@ -126,15 +153,23 @@ pub(super) fn coloured([width, height]: [u32; 2], channels: usize, values: &[u8]
 }
 
 fn pnm(bytes: &[u8]) -> Result<([u32; 2], DecodingResult), String> {
+    let (size, mut decoder) = pnm_header(bytes)?;
+    Ok((size, decoder.decode().map_err(pnm_failed)?))
+}
+
+fn pnm_header(bytes: &[u8]) -> Result<([u32; 2], PPMDecoder<ZCursor<&[u8]>>), String> {
     let side = MOST_SIDE as usize;
     let options = DecoderOptions::default().set_max_width(side).set_max_height(side);
     let mut decoder = PPMDecoder::new_with_options(ZCursor::new(bytes), options);
-    let failed = |e: zune_ppm::PPMDecodeErrors| format!("{e:?}").to_lowercase();
-    decoder.decode_headers().map_err(failed)?;
+    decoder.decode_headers().map_err(pnm_failed)?;
     let (width, height) = decoder.dimensions().ok_or("an image without a size")?;
     let size = [width as u32, height as u32];
     fits(size)?;
-    Ok((size, decoder.decode().map_err(failed)?))
+    Ok((size, decoder))
+}
+
+fn pnm_failed(error: zune_ppm::PPMDecodeErrors) -> String {
+    format!("{error:?}").to_lowercase()
 }
 
 /// Refuses images without pixels and of absurd size.

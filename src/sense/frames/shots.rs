@@ -92,8 +92,7 @@ fn colour_camera(
     depth: &Intrinsics,
     own: Option<Known<Pinhole>>,
 ) -> Result<Intrinsics, FrameError> {
-    let image = picture::colour(file)?;
-    let size = [image.width, image.height];
+    let size = picture::size(file)?;
     if let Some(known) = stated.colour(size, own)? {
         return Ok(known.value);
     }

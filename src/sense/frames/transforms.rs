@@ -107,11 +107,8 @@ impl Opened<'_> {
         let world_from_camera = pose::from_rows(&entry.transform_matrix).map_err(wrong)?;
         let (depth, colour) = (self.beside(depth), entry.file_path.as_deref().map(|f| self.beside(f)));
         let colour = colour.filter(|file| file.is_file());
-        let depth_size = picture::depth(&depth)?.size;
-        let colour_size = match colour.as_deref().map(picture::colour).transpose()? {
-            Some(image) => Some([image.width, image.height]),
-            None => None,
-        };
+        let depth_size = picture::size(&depth)?;
+        let colour_size = colour.as_deref().map(picture::size).transpose()?;
         let camera = self
             .camera(&entry.lens, colour_size.unwrap_or(depth_size))
             .map_err(wrong)?;
