@@ -72,7 +72,7 @@ pub fn fields(statement: &str) -> &'static [(&'static str, Type)] {
 pub fn words(statement: &str) -> &'static [&'static str] {
     match statement {
         "goal" => task::GOALS,
-        "method" => task::METHODS,
+        "method" => crate::rules::METHODS,
         "inspected" => task::INSPECTED,
         "verify" => task::VERIFY,
         _ => &[],

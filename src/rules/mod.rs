@@ -21,4 +21,4 @@ pub use library::{Class, Each, Feature, FeatureId, FeatureKind, Library, Presenc
 pub use scene::{Backdrop, Marker, Scene, SceneObject};
 #[cfg(test)]
 pub(crate) use task::BYTES_PER_VOXEL;
-pub use task::{Goal, Inspected, SensorModel, Space, Task, Thresholds};
+pub use task::{Goal, Inspected, METHODS, SensorModel, Space, Task, Thresholds};
