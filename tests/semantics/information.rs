@@ -58,7 +58,10 @@ pub fn facing(world: &MicroWorld, library: Library, task: Task) -> Trial {
 #[track_caller]
 fn check(trial: &Trial, world: &MicroWorld, method: &str, view: usize, expected: f64) {
     let value = trial.value(world, method, view);
-    assert!((value - expected).abs() < 1e-9, "{method} of view {view}: {value}, not {expected}");
+    assert!(
+        (value - expected).abs() < 1e-9,
+        "{method} of view {view}: {value}, not {expected}"
+    );
 }
 
 /// One ray: unknown, free, unknown, occupied from −x; the two voxels behind are not met.
@@ -83,7 +86,13 @@ fn oa_and_uv_weigh_entropy_by_visibility() {
 fn the_reference_multiplies_p_and_takes_free_voxels_above_a_fifth_for_unknown() {
     let (world, trial) = one_row();
     // Visibilities 1, ½, ⅛ and 1/16; p = ¼ lies between the bounds.
-    check(&trial, &world, "oa_implemented", 0, 1.125 * LN_2 + 0.5 * FREE + 0.0625 * HIT);
+    check(
+        &trial,
+        &world,
+        "oa_implemented",
+        0,
+        1.125 * LN_2 + 0.5 * FREE + 0.0625 * HIT,
+    );
     check(&trial, &world, "uv_implemented", 0, 1.125 * LN_2 + 0.5 * FREE);
     check(&trial, &world, "rse_implemented", 0, 1.125 * LN_2 + 0.5 * FREE);
 }

@@ -55,7 +55,11 @@ fn check(trial: &Trial, world: &MicroWorld, view: usize, all: f64, firm: f64) {
     for method in ["joint", "joint2"] {
         let choice = trial.only(world, method, view);
         let most = choice.worth.unwrap().most;
-        assert!((choice.best.score - all).abs() < 1e-9, "{method}: {}", choice.best.score);
+        assert!(
+            (choice.best.score - all).abs() < 1e-9,
+            "{method}: {}",
+            choice.best.score
+        );
         assert!((most - firm).abs() < 1e-9, "{method}: {most}");
     }
 }
@@ -67,7 +71,13 @@ fn a_surface_seen_from_behind_has_another_side() {
     // Depths 7.5 and 8.5 in unknown space, which the last voxel is not: it lies beside
     // the surface, at 10.5. Of unknown direction, they count twice.
     let unknown = 0.5625 / 6.0 + 0.7225 * 5.0 / 36.0;
-    check(&trial, &world, FRONT, 2.0 * (unknown + 1.1025 * 25.0 / 36.0), 2.0 * 1.1025);
+    check(
+        &trial,
+        &world,
+        FRONT,
+        2.0 * (unknown + 1.1025 * 25.0 / 36.0),
+        2.0 * 1.1025,
+    );
     // From its own side there is nothing new.
     check(&trial, &world, BEHIND, 0.0, 0.0);
 }
@@ -80,7 +90,13 @@ fn a_predicted_face_ends_rays_that_it_faces() {
     let left = 125.0 / 216.0;
     let before = 2.0 * (0.5625 / 6.0 + 0.7225 * 5.0 / 36.0 + 0.9025 * 25.0 / 216.0);
     let behind = 0.6 * 2.0 * (1.3225 / 6.0 + 1.5625 * 5.0 / 36.0);
-    check(&trial, &world, FRONT, before + left * (0.4 * 1.1025 + behind), 0.4 * 1.1025);
+    check(
+        &trial,
+        &world,
+        FRONT,
+        before + left * (0.4 * 1.1025 + behind),
+        0.4 * 1.1025,
+    );
     assert_eq!(trial.only(&world, "joint", BEHIND).worth.unwrap().most, 0.0);
 }
 

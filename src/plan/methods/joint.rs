@@ -126,7 +126,10 @@ fn look_ahead(situation: &Situation<'_>, prospect: &Prospect, values: &mut Vec<f
         let left = prospect.after(viewpoint(*first));
         let next = (0..values.len()).filter(|k| k != first);
         let shown = next.map(|k| prospect.of_view(viewpoint(k), &left, |_, _| {}));
-        (*first, values[*first] + shown.map(|e: Expected| e.all).fold(0.0, f64::max))
+        (
+            *first,
+            values[*first] + shown.map(|e: Expected| e.all).fold(0.0, f64::max),
+        )
     };
     let totals: Vec<(usize, f64)> = order.par_iter().map(with_next).collect();
     *values = vec![0.0; values.len()];

@@ -20,13 +20,13 @@ use rayon::prelude::*;
 
 use super::Situation;
 use super::rays::RAYS_A_ROW;
+use crate::detect::Measurement;
 use crate::geometry::{Polygon, Vector};
 use crate::map::{Grid, Occupancy, Voxel};
 use crate::plan::candidates::presence;
 use crate::plan::features::Existence;
 use crate::plan::inspection::predicted_voxels;
 use crate::plan::viewpoint::Viewpoint;
-use crate::detect::Measurement;
 
 /// How likely a predicted surface is where it was predicted.
 const ACCURACY: f64 = 0.8;
@@ -48,7 +48,9 @@ enum Cell {
     /// On a predicted surface: an index of `Prospect::faces`.
     Predicted(u32),
     /// Unknown beside a measured surface, right behind it or not.
-    Beside { rear: bool },
+    Beside {
+        rear: bool,
+    },
     Occupied,
 }
 
@@ -121,7 +123,9 @@ impl Prospect {
     /// What each unvisited view is expected to show.
     pub fn of_views(&self, situation: &Situation<'_>) -> Vec<Expected> {
         let views = situation.gains.views.par_iter();
-        views.map(|v| self.of_view(&situation.candidates[*v], &Left::new(), |_, _| {})).collect()
+        views
+            .map(|v| self.of_view(&situation.candidates[*v], &Left::new(), |_, _| {}))
+            .collect()
     }
 
     /// What is left of every surface once a view has been taken.
