@@ -124,9 +124,7 @@ fn written(run: &Run, rule: &str, log: &Path) -> Written {
             let text = block(&file.text, place.start as usize);
             Some((file.display.clone(), text.to_owned()))
         }),
-        None => Written::Gone(format!(
-            "`{file}` no longer compiles, so the rule's text is not shown"
-        )),
+        None => Written::Gone(format!("`{file}` no longer compiles, so the rule's text is not shown")),
     }
 }
 

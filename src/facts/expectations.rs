@@ -242,7 +242,11 @@ impl Concluded {
             None => {
                 let found = match predicted.len() {
                     0 => "none".to_owned(),
-                    n => format!("{n} of {}, and this has {}", corners(predicted), expected.vertices().len()),
+                    n => format!(
+                        "{n} of {}, and this has {}",
+                        corners(predicted),
+                        expected.vertices().len()
+                    ),
                 };
                 let message = format!("expected a predicted `{name}` at this place, found {found}");
                 Some(self.with_reason(Miss(message, None), feature))

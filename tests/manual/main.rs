@@ -62,7 +62,9 @@ fn every_program_of_the_manual_is_laid_out() {
     let mut wrong = Vec::new();
     for path in pages() {
         let blocks = page::blocks(&std::fs::read_to_string(&path).unwrap());
-        let programs = blocks.iter().filter(|b| matches!(b.kind, Kind::Program | Kind::Part(_)));
+        let programs = blocks
+            .iter()
+            .filter(|b| matches!(b.kind, Kind::Program | Kind::Part(_)));
         for block in programs {
             let laid_out = lang::format(&block.text).text;
             let first = block.text.lines().zip(laid_out.lines()).find(|(a, b)| a != b);

@@ -116,7 +116,11 @@ fn contradiction(library: &Library, layout: &Placed, odd: &Said<'_>, usual: &Sai
 fn place(face: &Polygon) -> String {
     let at = face.centre();
     let at = [at.x, at.y, at.z].map(|x| metres((x * 1e4).round() / 1e4 + 0.0));
-    format!("its middle is at [{}], facing {}", at.join(", "), direction(&face.normal()))
+    format!(
+        "its middle is at [{}], facing {}",
+        at.join(", "),
+        direction(&face.normal())
+    )
 }
 
 fn direction(v: &Vector) -> String {
@@ -145,8 +149,14 @@ mod tests {
         codes(&[
             ("class both {", &rules),
             ("class both { left, right }", &format!("class both {{ {class} }}")),
-            ("left at [-300 mm, 0 mm, 0 mm] facing +z", "left at [151 mm, 0 mm, 0 mm] facing +x"),
-            ("right at [300 mm, 0 mm, 0 mm] facing +z", "right at [0 mm, 151 mm, 0 mm] facing +y"),
+            (
+                "left at [-300 mm, 0 mm, 0 mm] facing +z",
+                "left at [151 mm, 0 mm, 0 mm] facing +x",
+            ),
+            (
+                "right at [300 mm, 0 mm, 0 mm] facing +z",
+                "right at [0 mm, 151 mm, 0 mm] facing +y",
+            ),
         ])
     }
 

@@ -71,7 +71,10 @@ mod tests {
     #[test]
     fn keeps_quiet_about_what_a_template_of_another_file_has() {
         let used = [
-            ("use std.views.sphere", "use std.views.sphere\nuse std.markers.coded_box"),
+            (
+                "use std.views.sphere",
+                "use std.views.sphere\nuse std.markers.coded_box",
+            ),
             (
                 "feature left : marker",
                 "use coded_box(width: 1 m, depth: 1 m, height: 1 m)\n feature left : marker",

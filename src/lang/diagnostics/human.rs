@@ -10,8 +10,8 @@ use super::paint::{BLUE, BOLD, DIM, GREEN, RED, Style, YELLOW, one_line, paint};
 use super::preview::preview;
 use super::ruled::Ruled;
 use super::{Diagnostic, Label, Severity};
-use crate::lang::types::units;
 use crate::lang::source::{FileId, SourceFile, SourceMap};
+use crate::lang::types::units;
 
 /// Narrower terminals are written as if they had this many columns.
 const LEAST_WIDTH: usize = 40;
@@ -238,7 +238,9 @@ fn pieces(text: &str) -> Vec<&str> {
 
 /// Whether a space stands between a number and its unit.
 fn parts_a_quantity(text: &str, at: usize) -> bool {
-    let unit = text[at + 1..].split(|c: char| c.is_whitespace() || ",;:)]".contains(c)).next();
+    let unit = text[at + 1..]
+        .split(|c: char| c.is_whitespace() || ",;:)]".contains(c))
+        .next();
     let unit = unit.map(|word| word.trim_end_matches('.'));
     text[..at].ends_with(|c: char| c.is_ascii_digit()) && unit.is_some_and(units::is_known)
 }

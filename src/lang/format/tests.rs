@@ -42,7 +42,10 @@ fn stable(text: &str) -> Result<String, TestCaseError> {
 /// Every program of the tree.
 fn programs() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut folders: Vec<PathBuf> = ["examples", "stdlib", "src/cli/new", "tests"].iter().map(|f| root.join(f)).collect();
+    let mut folders: Vec<PathBuf> = ["examples", "stdlib", "src/cli/new", "tests"]
+        .iter()
+        .map(|f| root.join(f))
+        .collect();
     let mut out = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {

@@ -163,12 +163,16 @@ impl Loader<'_> {
             return None;
         }
         if let Some(whole) = self.without_ending(&key) {
-            let (message, written) = (format!("there is no file `{}`", path.text), format!("{}.vpl", path.text));
-            let out = Diagnostic::new(Code::E0105, path.span, message);
-            self.found.push(
-                out.help(format!("did you mean `{written}`?"))
-                    .fix(format!("write `{written}`"), path.span, format!("\"{written}\"")),
+            let (message, written) = (
+                format!("there is no file `{}`", path.text),
+                format!("{}.vpl", path.text),
             );
+            let out = Diagnostic::new(Code::E0105, path.span, message);
+            self.found.push(out.help(format!("did you mean `{written}`?")).fix(
+                format!("write `{written}`"),
+                path.span,
+                format!("\"{written}\""),
+            ));
             return Some(Key::User(whole));
         }
         Some(Key::User(key))

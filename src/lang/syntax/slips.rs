@@ -170,7 +170,13 @@ fn index_by_dot(failure: &Failure<'_>) -> Option<Diagnostic> {
     let right = format!("[{}]", &rest[..digits]);
     let out = syntax_error(failure.place, "an index stands in brackets").label("not expected here");
     let help = format!("write `{right}`");
-    Some(mended(out.help(help.clone()), failure, &[(failure.at, 1 + digits)], &right, &help))
+    Some(mended(
+        out.help(help.clone()),
+        failure,
+        &[(failure.at, 1 + digits)],
+        &right,
+        &help,
+    ))
 }
 
 /// `- near: 10 mm`, as lists are written in YAML.

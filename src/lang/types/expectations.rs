@@ -112,9 +112,7 @@ impl<'a> Checker<'a> {
             (Some(facing), None | Some(FeatureKind::Marker)) => {
                 self.fact_place(&placed.at, facing).map(Expected::Marker)
             }
-            (None, None | Some(FeatureKind::Polygon)) => {
-                self.predicted_face(&placed.at).map(Expected::Face)
-            }
+            (None, None | Some(FeatureKind::Polygon)) => self.predicted_face(&placed.at).map(Expected::Face),
             (_, Some(kind)) => {
                 let name = &placed.feature.name.text;
                 let help = match kind {

@@ -264,6 +264,9 @@ fn member_of(name: &str, families: &Families) -> Option<String> {
     let family = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let index: u64 = name[family.len()..].parse().ok()?;
     let family = family.trim_end_matches('_');
-    let is_one = families.by_name.get(family).is_some_and(|f| declared(f).contains(&index));
+    let is_one = families
+        .by_name
+        .get(family)
+        .is_some_and(|f| declared(f).contains(&index));
     is_one.then(|| format!("{family}[{index}]"))
 }

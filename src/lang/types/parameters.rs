@@ -118,7 +118,10 @@ impl Checker<'_> {
             ),
             other => match closest(other, known.clone()) {
                 Some(near) => (out.meant(near), units::named(near).map(|(_, ty)| ty)),
-                None => (out.help(format!("types are {}", known.collect::<Vec<_>>().join(", "))), None),
+                None => (
+                    out.help(format!("types are {}", known.collect::<Vec<_>>().join(", "))),
+                    None,
+                ),
             },
         };
         self.report(out);

@@ -24,7 +24,12 @@ pub(super) fn build(call: &Call) -> Result<Mesh, SceneError> {
     ] {
         let out = right.cross(&up);
         let corner = |a: f64, b: f64| Point::from(half.component_mul(&(out + right * a + up * b)));
-        let outline = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+        let outline = [
+            corner(-1.0, -1.0),
+            corner(1.0, -1.0),
+            corner(1.0, 1.0),
+            corner(-1.0, 1.0),
+        ];
         builder.convex(&outline, colour(call, name)?);
     }
     Ok(builder.finish())
