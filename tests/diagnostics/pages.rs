@@ -7,7 +7,8 @@ use vpl::lang::{self, Code, Memory, Severity, title};
 
 /// Codes that no single text gives: files, bytes, runs.
 const FROM_OUTSIDE: &[&str] = &[
-    "E0105", "E0106", "E0107", "E0503", "E0504", "E0601", "E0602", "E0603", "E0604", "E0711", "E0712", "E0713", "E0714",
+    "E0105", "E0106", "E0107", "E0503", "E0504", "E0601", "E0602", "E0603", "E0604", "E0605", "E0611", "E0612",
+    "E0711", "E0712", "E0713", "E0714",
 ];
 
 const FORM: &str = "docs/diagnostics/CODE.md is: `# CODE: title` with the title of codes.rs, a few words on \

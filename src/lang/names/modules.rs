@@ -138,17 +138,8 @@ impl Loader<'_> {
             Key::User(base) => base.rfind('/').map_or("", |at| &base[..=at]),
             Key::Standard(_) => "",
         };
-        let refuse = |help: &str| {
-            Diagnostic::new(Code::E0111, path.span, format!("`{}` is no relative path", path.text)).help(help)
-        };
-        if path.text.contains('\\') {
-            self.found.push(refuse("separate folders with `/`"));
-            return None;
-        }
-        if path.text.is_empty() || path.text.starts_with('/') || path.text.contains(':') {
-            self.found.push(refuse(
-                "give the path from this file's folder, like \"parts/markers.vpl\"",
-            ));
+        if let Some(refused) = refused_path(path) {
+            self.found.push(refused);
             return None;
         }
         let key = normal(&format!("{base}{}", path.text));
@@ -229,6 +220,17 @@ impl Loader<'_> {
         self.found.extend(found.into_iter().filter(|_| is_a_program));
         Some(tree)
     }
+}
+
+/// What is wrong with a path that should be relative to the file that names it.
+pub(in crate::lang) fn refused_path(path: &tree::Name) -> Option<Diagnostic> {
+    let refuse =
+        |help: &str| Diagnostic::new(Code::E0111, path.span, format!("`{}` is no relative path", path.text)).help(help);
+    if path.text.contains('\\') {
+        return Some(refuse("separate folders with `/`"));
+    }
+    let absolute = path.text.is_empty() || path.text.starts_with('/') || path.text.contains(':');
+    absolute.then(|| refuse("give the path from this file's folder, like \"parts/markers.vpl\""))
 }
 
 /// What is wrong with the edition line.

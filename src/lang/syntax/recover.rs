@@ -22,6 +22,7 @@ pub(super) fn strict_entry(bad: Rule) -> Option<Rule> {
         Rule::bad_task_statement => Rule::task_statement_only,
         Rule::bad_scene_statement => Rule::scene_statement_only,
         Rule::bad_test_statement => Rule::test_statement_only,
+        Rule::bad_study_statement => Rule::study_statement_only,
         _ => return None,
     })
 }
