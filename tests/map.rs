@@ -74,7 +74,8 @@ fn eye() -> impl Strategy<Value = Point> {
 
 fn frame() -> impl Strategy<Value = Observation> {
     let target = prop::array::uniform3(-0.2..0.2_f64).prop_map(Point::from);
-    let reading = prop_oneof![1 => Just(0.0_f32), 6 => 0.1..1.5_f32, 1 => 2.0..4.0_f32];
+    let none = prop_oneof![5 => Just(0.0), 1 => Just(f32::NAN), 1 => Just(f32::INFINITY), 1 => Just(-1.0)];
+    let reading = prop_oneof![1 => none, 6 => 0.1..1.5_f32, 1 => 2.0..4.0_f32];
     (eye(), target, prop::collection::vec(reading, 35))
         .prop_map(|(eye, target, metres)| observation(look_at(eye, target), 7, metres))
 }

@@ -19,24 +19,42 @@ use vpl::sense::{ColourImage, DepthImage, Mesh, Observation, Paint};
 /// Of an image, a side.
 const MOST_PIXELS: usize = 16_384;
 
-/// Reads the file's values one after the other.
-struct Reader(BufReader<File>);
+/// Reads the file's values one after the other. A count is believed only as far
+/// as the file goes: a file of garbage asks for no memory.
+struct Reader {
+    file: BufReader<File>,
+    /// Words not read yet.
+    left: u64,
+}
 
 impl Reader {
     fn open(path: &Path) -> Result<Self, String> {
-        File::open(path)
-            .map(|f| Self(BufReader::new(f)))
-            .map_err(|e| e.to_string())
+        let file = File::open(path).map_err(|e| e.to_string())?;
+        let bytes = file.metadata().map_err(|e| e.to_string())?.len();
+        Ok(Self {
+            file: BufReader::new(file),
+            left: bytes / 4,
+        })
     }
 
     fn word(&mut self) -> Result<[u8; 4], String> {
         let mut bytes = [0; 4];
-        let read = self.0.read_exact(&mut bytes);
+        self.left = self.left.saturating_sub(1);
+        let read = self.file.read_exact(&mut bytes);
         read.map(|()| bytes).map_err(|_| "the file ends too early".to_owned())
     }
 
     fn count(&mut self) -> Result<usize, String> {
         self.word().map(|bytes| u32::from_le_bytes(bytes) as usize)
+    }
+
+    /// A count of things that have so many words each.
+    fn count_of(&mut self, what: &str, words: u64) -> Result<usize, String> {
+        let count = self.count()?;
+        if count as u64 * words > self.left {
+            return Err(format!("the file ends before its {count} {what}"));
+        }
+        Ok(count)
     }
 
     fn float(&mut self) -> Result<f32, String> {
@@ -81,10 +99,10 @@ pub struct Cloud {
 /// Clouds of a `.vpc` file, the first `most` of them unless that is 0.
 pub fn clouds(path: &Path, most: usize) -> Result<Vec<Cloud>, String> {
     let mut file = Reader::open(path)?;
-    let frames = file.count()?;
+    let frames = file.count_of("clouds", 13)?;
     let cloud = |file: &mut Reader| {
         let eye = Point::from(file.pose()?.translation.vector);
-        let n = file.count()?;
+        let n = file.count_of("points of a cloud", 3)?;
         let points = (0..n).map(|_| file.floats::<3>().map(Point::from));
         Ok(Cloud {
             eye,
@@ -108,6 +126,12 @@ pub fn depth_images(path: &Path, most: usize) -> Result<Vec<Observation>, String
     if !(1..=MOST_PIXELS).contains(&width) || !(1..=MOST_PIXELS).contains(&height) {
         return Err(format!(
             "an image has 1 to {MOST_PIXELS} pixels a side, not {width} x {height}"
+        ));
+    }
+    let pixels = width as u64 * height as u64;
+    if (pixels + 12).saturating_mul(frames as u64) > file.left {
+        return Err(format!(
+            "the file ends before its {frames} images of {width} × {height} pixels"
         ));
     }
     let image = Intrinsics {
@@ -171,8 +195,9 @@ fn at_most(frames: usize, most: usize) -> usize {
     if most == 0 { frames } else { frames.min(most) }
 }
 
-/// Eyes and measured points, which a space has to hold.
+/// The box of eyes and measured points, which a space has to hold.
 pub fn extent(points: impl Iterator<Item = Point>) -> (Point, Point) {
     let none = (Point::from([f64::INFINITY; 3]), Point::from([f64::NEG_INFINITY; 3]));
-    points.fold(none, |(low, high), p| (low.inf(&p), high.sup(&p)))
+    let finite = points.filter(|p| p.iter().all(|c| c.is_finite()));
+    finite.fold(none, |(low, high), p| (low.inf(&p), high.sup(&p)))
 }

@@ -45,7 +45,8 @@ pub fn depth(arguments: &Arguments) -> Result<Vec<Value>, String> {
     line(arguments, mode, [frames.len(), points], measured(map))
 }
 
-fn mode<'a>(arguments: &'a Arguments, known: &[&'a str]) -> Result<&'a str, String> {
+/// The mode that is asked for, the first one where none is.
+pub fn mode<'a>(arguments: &'a Arguments, known: &[&'a str]) -> Result<&'a str, String> {
     let Some(mode) = arguments.mode.as_deref() else {
         return Ok(known[0]);
     };

@@ -14,6 +14,7 @@ mod files;
 mod insert;
 mod meter;
 mod render;
+mod views;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -29,6 +30,9 @@ type Run = fn(&Arguments) -> Result<Vec<Value>, String>;
 const JOBS: &[(&str, Run)] = &[
     ("insert", insert::clouds),
     ("insert-depth", insert::depth),
+    ("gain", views::gain),
+    ("distinct", views::distinct),
+    ("first", views::first),
     ("render", render::depth),
 ];
 
@@ -53,6 +57,8 @@ struct Arguments {
     /// The first so many frames; 0 for all.
     #[arg(long, default_value_t = 0)]
     frames: usize,
+    #[command(flatten)]
+    images: views::Images,
 }
 
 impl Arguments {

@@ -126,10 +126,23 @@ impl PlanningGrid {
     /// ```
     #[inline(always)]
     pub fn walk(&self, ray: &Ray, mut visit: impl FnMut(Voxel, State) -> bool) {
+        let state = |voxel: Voxel| self.states.get(voxel.0 as usize);
+        self.walk_numbers(ray, |voxel| {
+            state(voxel).is_some_and(|state| visit(voxel, State(*state)))
+        });
+    }
+
+    /// The same without looking at the states.
+    #[inline(always)]
+    pub(super) fn walk_numbers(&self, ray: &Ray, visit: impl FnMut(Voxel) -> bool) {
         if let Some(track) = self.tracks.track(ray) {
-            let state = |voxel: Voxel| self.states.get(voxel.0 as usize);
-            track.walk(|voxel| state(voxel).is_some_and(|state| visit(voxel, State(*state))));
+            track.walk(visit);
         }
+    }
+
+    /// The states of all voxels in the order of their numbers.
+    pub(super) fn states(&self) -> impl ExactSizeIterator<Item = State> {
+        self.states.iter().map(|state| State(*state))
     }
 }
 

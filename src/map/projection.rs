@@ -294,10 +294,10 @@ fn pixel(coordinate: f32) -> u32 {
     (coordinate + 12_582_912.0).to_bits().wrapping_sub(0x4b40_0000)
 }
 
-/// A depth image without infinities, which are no readings.
+/// A depth image in which a pixel without a reading is 0.
 fn readable(metres: &[f32]) -> Cow<'_, [f32]> {
-    let infinite = metres.iter().fold(false, |any, z| any | (z.abs() == f32::INFINITY));
-    if !infinite {
+    let odd = metres.iter().fold(false, |any, z| any | !z.is_finite());
+    if !odd {
         return Cow::Borrowed(metres);
     }
     let readings = metres.iter().map(|&z| if z.is_finite() { z } else { 0.0 });

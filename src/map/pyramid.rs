@@ -31,11 +31,11 @@ impl Pyramid {
     /// Of an image of rows of `width` pixels.
     pub fn of(depth: &[f32], width: usize) -> Self {
         let width = width.max(1);
-        let rows = depth.par_chunks(width * TILE);
-        let mut levels = vec![Level {
-            width: width.div_ceil(TILE),
-            tiles: rows.flat_map_iter(|rows| tile_row(rows, width)).collect(),
-        }];
+        let (columns, rows) = (width.div_ceil(TILE), depth.par_chunks(width * TILE));
+        let mut tiles = vec![NOTHING; columns * rows.len()];
+        let pairs = tiles.par_chunks_mut(columns).zip(rows);
+        pairs.for_each(|(tiles, rows)| tile_row(tiles, rows, width));
+        let mut levels = vec![Level { width: columns, tiles }];
         while let Some(level) = levels.last().filter(|level| level.tiles.len() > 1) {
             levels.push(level.halved());
         }
@@ -92,8 +92,8 @@ fn both(a: Range, b: Range) -> Range {
     ]
 }
 
-/// Tiles of up to [`TILE`] image rows.
-fn tile_row(rows: &[f32], width: usize) -> Vec<Range> {
+/// Fills the tiles of up to [`TILE`] image rows.
+fn tile_row(tiles: &mut [Range], rows: &[f32], width: usize) {
     let (mut least, mut most) = (vec![f32::INFINITY; width], vec![0.0_f32; width]);
     for row in rows.chunks(width) {
         for ((least, most), &z) in least.iter_mut().zip(&mut most).zip(row) {
@@ -101,12 +101,11 @@ fn tile_row(rows: &[f32], width: usize) -> Vec<Range> {
             *most = if z > *most { z } else { *most };
         }
     }
-    let tiles = least.chunks(TILE).zip(most.chunks(TILE));
-    let of_tile = |(least, most): (&[f32], &[f32])| {
-        let columns = least.iter().zip(most);
-        columns.fold(NOTHING, |all, (&least, &most)| both(all, [least, most]))
-    };
-    tiles.map(of_tile).collect()
+    let columns = least.chunks(TILE).zip(most.chunks(TILE));
+    for (tile, (least, most)) in tiles.iter_mut().zip(columns) {
+        let ranges = least.iter().zip(most);
+        *tile = ranges.fold(NOTHING, |all, (&least, &most)| both(all, [least, most]));
+    }
 }
 
 #[cfg(test)]

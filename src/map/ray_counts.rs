@@ -1,6 +1,6 @@
 //! Counts of voxels on rays: what information gain over an image is made of.
 
-use super::planning::PlanningGrid;
+use super::planning::{PlanningGrid, State};
 use super::rays::Ray;
 
 /// What some rays met.
@@ -32,30 +32,41 @@ impl std::iter::Sum for RayCounts {
     }
 }
 
-/// Which voxels the rays of one view have met: the number of the last such view,
-/// voxel by voxel. Kept from view to view, so that none has to clear it.
+/// Which voxels the rays of one view have met: of every unknown voxel the number of
+/// the last such view. Kept from view to view, so that none has to clear it.
 #[derive(Clone, Debug)]
 pub struct Seen {
+    /// The last view that met a voxel, or [`FREE`] or [`OCCUPIED`].
     last: Vec<u8>,
     view: u8,
 }
 
+const FREE: u8 = 254;
+const OCCUPIED: u8 = 255;
+
 impl Seen {
-    /// Nothing seen of a planning grid.
+    /// Nothing seen of a planning grid as it is now.
     pub fn new(grid: &PlanningGrid) -> Self {
+        let last = |state: State| match (state.is_occupied(), state.is_unknown()) {
+            (true, _) => OCCUPIED,
+            (_, false) => FREE,
+            _ => 0,
+        };
         Self {
-            last: vec![0; grid.grid().len() as usize],
+            last: grid.states().map(last).collect(),
             view: 0,
         }
     }
 
     /// Begins a view.
-    fn begin(&mut self) {
-        if self.view == u8::MAX {
-            self.last.fill(0);
+    fn begin(&mut self) -> u8 {
+        if self.view + 1 == FREE {
+            let unknown = self.last.iter_mut().filter(|last| **last < FREE);
+            unknown.for_each(|last| *last = 0);
             self.view = 0;
         }
         self.view += 1;
+        self.view
     }
 }
 
@@ -78,22 +89,22 @@ impl PlanningGrid {
     }
 
     /// Unknown voxels that the rays of one view meet before an occupied one, each
-    /// once. `seen` was made for this grid and may have served other views.
+    /// once. `seen` was made of this grid and may have served other views.
     pub fn distinct_unknown(&self, rays: &[Ray], seen: &mut Seen) -> RayCounts {
-        seen.begin();
-        let (view, last) = (seen.view, &mut seen.last[..]);
         let mut counts = RayCounts::default();
+        let (view, last) = (seen.begin(), &mut seen.last[..]);
         for ray in rays {
-            self.walk(ray, |voxel, state| {
+            self.walk_numbers(ray, |voxel| {
+                let Some(last) = last.get_mut(voxel.0 as usize) else {
+                    return false;
+                };
                 counts.steps += 1;
-                if state.is_occupied() {
+                if *last == OCCUPIED {
                     counts.hits += 1;
                     return false;
                 }
-                if state.is_unknown()
-                    && let Some(last) = last.get_mut(voxel.0 as usize)
-                {
-                    counts.unknown += u64::from(*last != view);
+                if *last != view && *last != FREE {
+                    counts.unknown += 1;
                     *last = view;
                 }
                 true

@@ -156,7 +156,7 @@ pub fn reachable<W: World + ?Sized>(
     near: f64,
     wanted: impl Fn(usize) -> bool,
 ) -> Vec<bool> {
-    let own_surface = near.max(touching(world.grid()));
+    let own_surface = near.max(touching(look.grid()));
     let sees = |k: usize, v: &PredictedVoxel| {
         let faces = |n: &Vector| look.view().could_detect(&v.centre, n, envelope);
         let tolerance = if touched[k] { own_surface } else { 0.0 };

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use super::viewpoint::Viewpoint;
 use super::world::World;
-use crate::map::{CentreView, Voxel, VoxelSet};
+use crate::map::{CentreView, Grid, Voxel, VoxelSet};
 use crate::rules::Visibility;
 
 /// A view on a world as it is now. Made once a view: by centres, all that is occupied
@@ -72,6 +72,11 @@ impl<'a, W: World + ?Sized> Look<'a, W> {
     /// The world.
     pub fn world(&self) -> &'a W {
         self.world
+    }
+
+    /// The grid of the world.
+    pub fn grid(&self) -> &Grid {
+        self.world.grid()
     }
 
     /// The view.

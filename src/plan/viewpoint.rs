@@ -51,6 +51,10 @@ impl Viewpoint {
     ///
     /// A detector on colour needs the depth image too: the feature is placed by it.
     pub fn could_detect(&self, p: &Point, normal: &Vector, envelope: &Envelope) -> bool {
+        // First what rules out most and costs least.
+        if !self.faces(p, normal, envelope) {
+            return false;
+        }
         let Some(depth) = self.depth_of(p) else {
             return false;
         };
@@ -59,12 +63,14 @@ impl Viewpoint {
             ImageKind::Colour => &self.camera.colour,
         };
         let resolved = image.fx / depth >= envelope.min_pixels_per_metre;
-        resolved && self.faces(p, normal, envelope) && image.project(&(self.camera_from_world * p)).is_some()
+        resolved && image.project(&(self.camera_from_world * p)).is_some()
     }
 
     fn faces(&self, p: &Point, normal: &Vector, envelope: &Envelope) -> bool {
         let sight = self.eye - p;
-        normal.dot(&sight) >= envelope.max_incidence.cos() * sight.norm()
+        let along = normal.dot(&sight);
+        let turned_away = along < 0.0 && envelope.max_incidence <= std::f64::consts::FRAC_PI_2;
+        !turned_away && along >= envelope.max_incidence.cos() * sight.norm()
     }
 
     /// z-depth of a point inside the depth image and range, metres.

@@ -105,7 +105,11 @@ fn what_a_page_says_fails_fails_and_what_is_fixed_is_fixed() {
         if !given.contains(code) || given.iter().any(|c| is_other_error(&c)) {
             wrong.push(format!("{code}: `## Fails` gives {given:?}"));
         }
-        let (given, compiles) = codes(page.block("Fixed", "vpl").unwrap_or(""));
+        let fixed = page.block("Fixed", "vpl").unwrap_or("");
+        if lang::format(fixed).text != fixed {
+            wrong.push(format!("{code}: `## Fixed` is not laid out as `vpl fmt` does"));
+        }
+        let (given, compiles) = codes(fixed);
         if !compiles || given.contains(code) {
             wrong.push(format!("{code}: `## Fixed` gives {given:?}"));
         }

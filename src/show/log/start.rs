@@ -102,6 +102,9 @@ pub struct Rule {
     pub predict: Option<String>,
     /// Line in its file.
     pub line: u32,
+    /// [`rules::Rule::digest`]; empty in logs that were written without.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub digest: String,
 }
 
 impl Start {
@@ -173,6 +176,7 @@ impl Rule {
             detect: rule.detect.primitive.clone(),
             predict: rule.predict.as_ref().map(|p| p.primitive.clone()),
             line: rule.place.line,
+            digest: rule.digest(library),
         }
     }
 }

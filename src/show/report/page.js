@@ -74,7 +74,7 @@ function views(now) {
     { ...columns(idle), type: 'scatter3d', mode: 'markers', name: 'views without gain', text: idle.map((k) => `view ${k}`), hoverinfo: 'text',
       marker: { size: 3, color: '#c3cad1' } },
     { ...columns(useful), type: 'scatter3d', mode: 'markers', name: 'views with gain', text: useful.map(hover), hoverinfo: 'text',
-      marker: { size: 6, color: useful.map((k) => gains.get(k)), colorscale: 'Viridis', reversescale: true, showscale: useful.length > 0,
+      marker: { size: 6, color: useful.map((k) => gains.get(k)), colorscale: 'Viridis', reversescale: true, cmin: 0, showscale: useful.length > 0,
         colorbar: { title: { text: 'gain' }, thickness: 10, len: 0.5, x: 0 } } },
     { ...columns(path), type: 'scatter3d', mode: 'lines+markers+text', name: 'path', text: path.map((_, k) => String(k + 1)), textposition: 'top center',
       hoverinfo: 'text', marker: { size: 6, color: '#111' }, line: { color: '#111', width: 4 } },
@@ -87,7 +87,7 @@ function views(now) {
   return drawn;
 }
 
-const sceneLayout = { ...ground, margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: 'kept', legend: { orientation: 'h', y: 0 },
+const sceneLayout = { ...ground, margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: 'kept', autosize: true, legend: { orientation: 'h', y: 0, itemsizing: 'constant' },
   scene: { aspectmode: 'data', uirevision: 'kept', xaxis: { title: { text: 'x, m' } }, yaxis: { title: { text: 'y, m' } }, zaxis: { title: { text: 'z, m' } } } };
 
 function drawScene(now) {
@@ -105,19 +105,25 @@ function drawPicture(frame) {
   box.append(element('img', { src: picture.source, alt: `colour image of view ${frame.view.view}` }));
   const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
   svg.setAttribute('viewBox', `0 0 ${picture.width} ${picture.height}`);
-  for (const mark of picture.marks) {
+  const labelled = new Set();
+  const newFirst = [...picture.marks].sort((a, b) => b.new - a.new);
+  for (const mark of newFirst) {
     const kind = mark.new ? 'new' : 'known';
     const shape = document.createElementNS(svg.namespaceURI, 'polygon');
     shape.setAttribute('points', mark.outline.map((p) => p.join(',')).join(' '));
     shape.setAttribute('class', kind);
+    shape.style.stroke = colourOf(mark.feature);
     const label = document.createElementNS(svg.namespaceURI, 'text');
     const middle = (k) => mark.outline.reduce((sum, p) => sum + p[k], 0) / mark.outline.length;
     label.setAttribute('x', middle(0));
     label.setAttribute('y', middle(1));
     label.setAttribute('text-anchor', 'middle');
     label.setAttribute('class', kind);
+    label.style.fontSize = `${picture.width / 38}px`;
     label.textContent = mark.feature;
-    svg.append(shape, label);
+    svg.append(shape);
+    if (!labelled.has(mark.feature)) svg.append(label);
+    labelled.add(mark.feature);
   }
   box.append(svg);
 }
@@ -167,8 +173,9 @@ const overViews = { title: { text: 'view' }, dtick: frames.length > 12 ? 2 : 1, 
 const n = frames.map((f) => f.view.n);
 
 function drawCurves(now) {
-  const posterior = names(frames[0].view.classes).map((name) => ({ x: n, y: frames.map((f) => f.view.classes[name]), name, mode: 'lines+markers', line: { shape: 'hv' } }));
-  Plotly.react('classes', posterior, { ...ground, ...mark(now), xaxis: overViews, yaxis: { title: { text: 'probability' }, range: [-0.02, 1.02] } }, quiet);
+  const possible = names(frames[0].view.classes).filter((name) => frames.some((f) => f.view.classes[name] > 0));
+  const posterior = possible.map((name) => ({ x: n, y: frames.map((f) => f.view.classes[name]), name, type: 'bar' }));
+  Plotly.react('classes', posterior, { ...ground, ...mark(now), barmode: 'stack', xaxis: overViews, yaxis: { title: { text: 'probability' }, range: [0, 1.02] } }, quiet);
   const states = ['unknown', 'free', 'occupied', 'preoccupied'];
   const voxels = states.map((state) => ({ x: n, y: frames.map((f) => f.view.voxels[state]), name: state, mode: 'lines+markers' }));
   Plotly.react('voxels', voxels, { ...ground, ...mark(now), xaxis: overViews, yaxis: { title: { text: 'voxels' }, type: 'log' } }, quiet);

@@ -40,9 +40,8 @@ fn why(error: &McapError) -> String {
                 "its chunks are compressed with {name}, which is not read; `mcap compress --compression none` unpacks them"
             )
         }
-        McapError::BadMagic => {
-            "it does not begin and end as an MCAP file does; was it cut off? `mcap recover` mends it".to_owned()
-        }
+        McapError::BadMagic => "it does not begin and end as an MCAP file does".to_owned(),
+        McapError::UnexpectedEof => "it ends within a record; was it cut off? `mcap recover` mends it".to_owned(),
         other => other.to_string().to_lowercase(),
     }
 }
