@@ -64,7 +64,10 @@ fn text(mut arguments: impl Iterator<Item = String>) -> Result<String, String> {
     within("--classes", settings.classes, 4, 64)?;
     within("--features", settings.features, 4, 24)?;
     if (1 << settings.features) < 2 * settings.classes {
-        return Err(format!("{} codes cannot tell {} classes apart with some left over", settings.features, settings.classes));
+        return Err(format!(
+            "{} codes cannot tell {} classes apart with some left over",
+            settings.features, settings.classes
+        ));
     }
     match kind.as_str() {
         "solids" => Ok(solids(&settings, random)),
@@ -84,7 +87,10 @@ fn solids(settings: &Settings, mut random: Pcg64) -> String {
          task    reconstruct\n  objects {}\n  methods gn, gno, joint, random\n  starts  8\n}}\n",
         settings.count,
         settings.seed,
-        (1..=settings.count).map(|k| format!("g{k}")).collect::<Vec<_>>().join(", "),
+        (1..=settings.count)
+            .map(|k| format!("g{k}"))
+            .collect::<Vec<_>>()
+            .join(", "),
     )
 }
 
@@ -138,7 +144,10 @@ fn deformations(sides: u64, pyramid: bool, radius: f64, height: f64, random: &mu
         out += &match kind {
             0 => {
                 let narrow = (width * 0.3).min(50.0) as u64;
-                format!("    notch(side: {side}, width: {narrow} mm, depth: {} mm),\n", deep.min(50))
+                format!(
+                    "    notch(side: {side}, width: {narrow} mm, depth: {} mm),\n",
+                    deep.min(50)
+                )
             }
             1 => format!(
                 "    bump(side: {side}, up: {} %, width: {across} mm, height: {} mm, depth: {} mm),\n",
@@ -146,7 +155,9 @@ fn deformations(sides: u64, pyramid: bool, radius: f64, height: f64, random: &mu
                 (tall / 2).max(30),
                 deep.min(40),
             ),
-            _ => format!("    dent(side: {side}, up: {up} %, width: {across} mm, height: {tall} mm, depth: {deep} mm),\n"),
+            _ => format!(
+                "    dent(side: {side}, up: {up} %, width: {across} mm, height: {tall} mm, depth: {deep} mm),\n"
+            ),
         };
         side = side % sides + 1;
     }
@@ -174,7 +185,8 @@ fn codes(settings: &Settings, mut random: Pcg64) -> String {
     let table = |name: &str, rows: &[u64]| -> String {
         let cells = |row: u64| (0..f).map(|k| format!(" {}", row >> k & 1)).collect::<String>();
         let rows = rows.iter().enumerate();
-        rows.map(|(k, row)| format!("    {name}{}{}\n", k + 1, cells(*row))).collect()
+        rows.map(|(k, row)| format!("    {name}{}{}\n", k + 1, cells(*row)))
+            .collect()
     };
     let (known, strange) = rows.split_at(classes as usize);
     let places: String = (0..f).map(place).collect();
@@ -221,7 +233,11 @@ fn place(code: u64) -> String {
     let mm = |x: f64| format!("{:.1} mm", x * 1e3);
     let ([x, y, z], facing) = if code < 2 * SIDES {
         let angle = side as f64 * std::f64::consts::TAU / SIDES as f64;
-        let up = if (code / SIDES + side).is_multiple_of(2) { 0.17 } else { -0.17 };
+        let up = if (code / SIDES + side).is_multiple_of(2) {
+            0.17
+        } else {
+            -0.17
+        };
         let facing = format!("[{:.6}, {:.6}, 0]", angle.cos(), angle.sin());
         ([apothem * angle.cos(), apothem * angle.sin(), up], facing)
     } else {
@@ -231,5 +247,11 @@ fn place(code: u64) -> String {
         let at = [0.2 * corner.cos(), 0.2 * corner.sin(), z * (HEIGHT / 2.0 + 0.003)];
         (at, if z > 0.0 { "+z".to_owned() } else { "-z".to_owned() })
     };
-    format!("    code[{}] at [{}, {}, {}] facing {facing}\n", code + 1, mm(x), mm(y), mm(z))
+    format!(
+        "    code[{}] at [{}, {}, {}] facing {facing}\n",
+        code + 1,
+        mm(x),
+        mm(y),
+        mm(z)
+    )
 }

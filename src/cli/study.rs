@@ -66,7 +66,10 @@ pub(crate) fn run(options: &Study) -> Result<Outcome, Failure> {
     let usual = || PathBuf::from(format!("study-{}", design.study.name));
     let folder = options.out.clone().unwrap_or_else(usual);
     let waiting = |file: &Path| {
-        let _ = report(&format!("waiting for another vpl that writes to `{}`\n", file.display()));
+        let _ = report(&format!(
+            "waiting for another vpl that writes to `{}`\n",
+            file.display()
+        ));
     };
     let mut ledger = Ledger::open(&folder, Manifest::of(&design), shard, waiting)?;
     for other in &options.merge {

@@ -58,7 +58,12 @@ impl Bench {
         let entries = fs::read_dir(self.path(folder)).unwrap();
         let files = entries.map(|e| e.unwrap().path()).filter(|p| !is_shard(p));
         files
-            .map(|p| (p.file_name().unwrap().to_string_lossy().into_owned(), fs::read(&p).unwrap()))
+            .map(|p| {
+                (
+                    p.file_name().unwrap().to_string_lossy().into_owned(),
+                    fs::read(&p).unwrap(),
+                )
+            })
             .collect()
     }
 
@@ -117,7 +122,12 @@ fn bounds_bound_and_rows_say_what_the_columns_mean() {
     bench.done(&["solids.vpl", "--out", "out"]);
     let rows = bench.rows("out");
     let number = |row: &serde_json::Value, key: &str| row[key].as_u64();
-    let of = |method: &str| rows.iter().filter(|r| r["method"] == method).cloned().collect::<Vec<_>>();
+    let of = |method: &str| {
+        rows.iter()
+            .filter(|r| r["method"] == method)
+            .cloned()
+            .collect::<Vec<_>>()
+    };
     let (bounds, oracles) = (of("bound"), of("oracle"));
     // Two objects, four starts.
     assert_eq!((bounds.len(), oracles.len(), of("gn").len()), (8, 8, 8));
@@ -142,7 +152,10 @@ fn bounds_bound_and_rows_say_what_the_columns_mean() {
     );
     let all: Vec<&str> = lines.filter(|l| l.contains(",all,")).collect();
     assert_eq!(all.len(), 4);
-    assert!(all[0].starts_with("solids,gn,all,4,") && all[3].starts_with("solids,oracle,all,4,"), "{csv}");
+    assert!(
+        all[0].starts_with("solids,gn,all,4,") && all[3].starts_with("solids,oracle,all,4,"),
+        "{csv}"
+    );
     let page = fs::read_to_string(bench.path("out").join("index.html")).unwrap();
     for loads in ["src=", "href=", "@import", "url("] {
         assert!(!page.contains(loads), "{loads}");
@@ -166,13 +179,19 @@ fn recognition_is_told_apart_and_held_against_the_best_policy() {
     let bound: Vec<&serde_json::Value> = rows.iter().filter(|r| r["outcome"] == "bound").collect();
     assert!(!bound.is_empty());
     for row in bound {
-        assert!(row["expected"].as_f64().unwrap() >= 1.0 && row["closed"] == true, "{row}");
+        assert!(
+            row["expected"].as_f64().unwrap() >= 1.0 && row["closed"] == true,
+            "{row}"
+        );
     }
     let known = rows.iter().filter(|r| r["method"] == "gn" && r["first"].is_u64());
     let best: Vec<f64> = known.filter_map(|r| r["best_from_first"].as_f64()).collect();
     assert!(!best.is_empty() && best.iter().all(|b| *b >= 1.0));
     let table = fs::read_to_string(bench.path("out").join("tables.md")).unwrap();
-    assert!(table.contains("from first code") && table.contains("| wrong |"), "{table}");
+    assert!(
+        table.contains("from first code") && table.contains("| wrong |"),
+        "{table}"
+    );
 }
 
 #[test]
@@ -186,7 +205,11 @@ fn folders_of_others_are_refused() {
     bench.write("mine/letter.txt", "dear");
     bench.refused(&["solids.vpl", "--out", "mine"], 1, "holds `letter.txt` and no study");
     bench.refused(&["solids.vpl", "--out", "solids.vpl"], 1, "E0601");
-    bench.refused(&["solids.vpl", "--out", "new", "--merge", "mine"], 1, "holds no `study.json`");
+    bench.refused(
+        &["solids.vpl", "--out", "new", "--merge", "mine"],
+        1,
+        "holds no `study.json`",
+    );
     fs::create_dir(bench.path("bad")).unwrap();
     bench.write("bad/study.json", "{\"vpl\": ");
     bench.refused(&["solids.vpl", "--out", "bad"], 1, "E0605");
@@ -215,7 +238,11 @@ fn wrong_usage_and_endless_studies_are_told_before_anything_runs() {
     bench.write("many.vpl", &many.replace("methods gn", "methods random"));
     bench.refused(&["many.vpl", "--out", "out"], 1, "at most 1000000");
     bench.write("starts.vpl", &SOLIDS.replace("starts 4", "starts 13"));
-    bench.refused(&["starts.vpl", "--out", "out"], 1, "13 starts, and the task has 12 views");
+    bench.refused(
+        &["starts.vpl", "--out", "out"],
+        1,
+        "13 starts, and the task has 12 views",
+    );
     assert!(!bench.path("out").exists());
     let planned = bench.study(&["solids.vpl", "--dry-run", "--shard", "2/5"]);
     let said = String::from_utf8_lossy(&planned.stdout).into_owned();
@@ -231,10 +258,16 @@ fn suites_name_what_is_wrong_with_them() {
     let said = String::from_utf8_lossy(&out.stderr).into_owned();
     assert_eq!(out.status.code(), Some(1));
     insta::assert_snapshot!(said);
-    bench.write("none.vpl", "vpl 1\n\nstudy s {\n  program \"missing.vpl\"\n  methods gn\n}\n");
+    bench.write(
+        "none.vpl",
+        "vpl 1\n\nstudy s {\n  program \"missing.vpl\"\n  methods gn\n}\n",
+    );
     bench.refused(&["none.vpl"], 1, "there is no file `missing.vpl`");
     bench.write("broken.vpl", "vpl 1\n\nlet a = b\n");
-    bench.write("of_broken.vpl", "vpl 1\n\nstudy s {\n  program \"broken.vpl\"\n  methods gn\n}\n");
+    bench.write(
+        "of_broken.vpl",
+        "vpl 1\n\nstudy s {\n  program \"broken.vpl\"\n  methods gn\n}\n",
+    );
     bench.refused(&["of_broken.vpl"], 1, "E0506");
 }
 
@@ -245,8 +278,15 @@ fn meshes_are_objects_and_a_changed_mesh_is_another_study() {
     let corners = [[0.0, 0.0, 0.0], [200.0, 0.0, 0.0], [0.0, 200.0, 0.0], [0.0, 0.0, 200.0]];
     let faces = [[1, 3, 2], [1, 2, 4], [1, 4, 3], [2, 3, 4]];
     let mesh = |scale: f64| {
-        let points: String = corners.iter().map(|[x, y, z]| format!("v {} {} {}\n", x * scale, y * scale, z * scale)).collect();
-        points + &faces.iter().map(|[a, b, c]| format!("f {a} {b} {c}\n")).collect::<String>()
+        let points: String = corners
+            .iter()
+            .map(|[x, y, z]| format!("v {} {} {}\n", x * scale, y * scale, z * scale))
+            .collect();
+        points
+            + &faces
+                .iter()
+                .map(|[a, b, c]| format!("f {a} {b} {c}\n"))
+                .collect::<String>()
     };
     bench.write("part.obj", &mesh(1.0));
     let objects = "objects mesh(file: \"part.obj\", units: mm, up: z)";

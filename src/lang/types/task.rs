@@ -18,7 +18,7 @@ use crate::rules::{Goal, Inspected};
 
 /// The methods of choosing views.
 pub(in crate::lang) const METHODS: &[&str] = &[
-    "gn", "gno", "joint", "oa", "uv", "rsv", "rse", "pc", "af", "ae", "ts", "pfdt", "random",
+    "gn", "gno", "joint", "joint2", "oa", "uv", "rsv", "rse", "pc", "af", "ae", "ts", "pfdt", "random",
 ];
 /// The method where a task names none.
 const USUAL_METHOD: &str = "gn";

@@ -20,6 +20,8 @@ pub struct Plot {
 
 /// Size of a plot, pixels.
 const SIZE: (u32, u32) = (960, 480);
+/// Face and size of all letters.
+const LETTERS: (&str, u32) = ("sans-serif", 14);
 /// Colours that differ for colour-blind eyes too (Tol's bright and muted schemes).
 const COLOURS: [RGBColor; 14] = [
     RGBColor(0x44, 0x77, 0xaa),
@@ -99,6 +101,8 @@ fn over_objects(design: &Design, summary: &Summary, of: fn(&Line) -> Option<Inte
         chart
             .configure_mesh()
             .disable_x_mesh()
+            .light_line_style(TRANSPARENT)
+            .label_style(LETTERS)
             .x_labels((2 * objects.len()).clamp(2, 60))
             .x_label_formatter(&name)
             .x_desc("object")
@@ -147,6 +151,8 @@ fn over_views(design: &Design, summary: &Summary) -> Result<String, StudyError> 
             .map_err(|e| e.to_string())?;
         chart
             .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .label_style(LETTERS)
             .x_desc("views")
             .y_desc("coverage, %")
             .x_labels(longest.min(20))
@@ -175,6 +181,7 @@ type Chart<'a, 'b> = ChartContext<
 fn legend<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>) -> Result<(), String> {
     chart
         .configure_series_labels()
+        .label_font(LETTERS)
         .background_style(WHITE.mix(0.85))
         .border_style(BLACK.mix(0.3))
         .position(SeriesLabelPosition::LowerRight)
