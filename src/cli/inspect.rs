@@ -95,9 +95,10 @@ fn mapped(recording: &Recording, bounds: Bounds, voxel: f64) -> Result<Map, Fail
         voxel,
     };
     let too_large = |e: crate::map::TooLarge| Failure::Run(format!("{e}, as with `--voxel 100mm` or `--max-depth 5m`"));
-    let mut map = Map::new(&space, SensorModel::default()).map_err(too_large)?;
+    let map = Map::new(&space, SensorModel::default()).map_err(too_large)?;
+    let mut map = map.of_occupancy_alone();
     for k in 0..recording.frames.len() {
-        map.insert(&recording.observe(k).map_err(refused)?);
+        map.insert_every_ray(&recording.observe(k).map_err(refused)?);
     }
     Ok(map)
 }

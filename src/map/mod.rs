@@ -11,6 +11,7 @@ mod cell_projection;
 mod centre_view;
 mod clearance;
 mod depth_window;
+mod every_ray;
 mod grid;
 mod keys;
 mod layout;
@@ -160,6 +161,22 @@ impl Map {
     pub fn insert_cloud(&mut self, eye: &Point, points: &[Point]) -> usize {
         let keep = self.surfaces;
         self.insert_rays(eye, |trace| readings::of_cloud(trace, points, keep))
+    }
+
+    /// Inserts a measurement by a ray to every reading: hits are those of
+    /// [`Map::insert`], and every voxel that a ray passes before its end is missed.
+    /// The sets are those of OctoMap's `insertPointCloud` without `discretize`, and
+    /// there are as many rays as readings: for maps that are to be like OctoMap's.
+    pub fn insert_every_ray(&mut self, observation: &Observation) -> usize {
+        let marks = Marks::new(self.bricks.len());
+        let (eye, table) = (observation.eye(), self.bricks.table());
+        let trace = Trace::from(&self.layout, table, &marks, &eye, false);
+        let readings = trace.map_or_else(Readings::default, |trace| {
+            let readings = readings::of_image(&trace, observation, self.surfaces);
+            every_ray::miss(&self.layout, table, &marks, observation);
+            readings
+        });
+        self.conclude(marks, &eye, readings)
     }
 
     /// Inserts a depth image by projection: the voxels that hold points are hit,

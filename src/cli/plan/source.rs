@@ -17,7 +17,7 @@ pub(super) enum Source {
     /// The simulator with its object.
     Simulated(Box<Stage>),
     /// Frames that were taken.
-    Recorded(Recorded),
+    Recorded(Box<Recorded>),
 }
 
 impl Source {
@@ -33,7 +33,7 @@ impl Source {
             let mut recorded = recorded::open(path, options)?;
             recorded.equip(task)?;
             recorded.warn(task)?;
-            return Ok(Ok(Self::Recorded(recorded)));
+            return Ok(Ok(Self::Recorded(Box::new(recorded))));
         }
         if let Some(option) = options.recording.first_set() {
             return Err(Failure::Usage(format!(

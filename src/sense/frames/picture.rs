@@ -157,7 +157,9 @@ fn pnm(bytes: &[u8]) -> Result<([u32; 2], DecodingResult), String> {
     Ok((size, decoder.decode().map_err(pnm_failed)?))
 }
 
-fn pnm_header(bytes: &[u8]) -> Result<([u32; 2], PPMDecoder<ZCursor<&[u8]>>), String> {
+type Pnm<'a> = PPMDecoder<ZCursor<&'a [u8]>>;
+
+fn pnm_header(bytes: &[u8]) -> Result<([u32; 2], Pnm<'_>), String> {
     let side = MOST_SIDE as usize;
     let options = DecoderOptions::default().set_max_width(side).set_max_height(side);
     let mut decoder = PPMDecoder::new_with_options(ZCursor::new(bytes), options);

@@ -17,7 +17,10 @@ const HEADER: u64 = 4096;
 /// Hands every message to `take`, in the order of the file.
 pub(super) fn read(path: &Path, take: &mut dyn FnMut(&Message) -> Result<(), FrameError>) -> Result<(), FrameError> {
     let length = check(path)?;
-    let broken = |error: rosbag::Error| FrameError::malformed(path, format!("{}", error).to_lowercase());
+    let broken = |error: rosbag::Error| {
+        let text = error.to_string().to_lowercase();
+        FrameError::malformed(path, text.trim_start_matches("rosbag::error: "))
+    };
     let bag = RosBag::new(path).map_err(|e| FrameError::malformed(path, e.to_string().to_lowercase()))?;
     let mut connections: HashMap<u32, (String, String)> = HashMap::new();
     for record in bag.index_records() {

@@ -37,7 +37,7 @@ fn why(error: &McapError) -> String {
     match error {
         McapError::UnsupportedCompression(name) => {
             format!(
-                "its chunks are compressed with {name}, which is not read; `mcap compress --compression none` unpacks them"
+                "its chunks are compressed with {name}, which is not read; `mcap decompress` unpacks them"
             )
         }
         McapError::BadMagic => "it does not begin and end as an MCAP file does".to_owned(),
