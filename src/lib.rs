@@ -22,3 +22,4 @@ pub mod recognition;
 pub mod rules;
 pub mod sense;
 pub mod show;
+pub mod study;

@@ -61,7 +61,7 @@ module.exports = grammar({
 
     // ---- Items --------------------------------------------------------------
 
-    _item: ($) => choice($.use, $.let, $.library, $.task, $.scene, $.test),
+    _item: ($) => choice($.use, $.let, $.library, $.task, $.scene, $.test, $.study),
 
     // use std.cameras.kinect_v2 · use std.solids.{a, b} · use "parts/markers.vpl".{a, b}
     use: ($) =>
@@ -139,7 +139,9 @@ module.exports = grammar({
         $.method,
         $.gain_floor,
         $.inspected,
+        $.visibility,
         $.verify,
+        $.insertion,
         $.sensor_model,
       ),
     library_of: ($) => seq('library', $.name),
@@ -153,7 +155,9 @@ module.exports = grammar({
     method: ($) => seq('method', $.name),
     gain_floor: ($) => seq('gain_floor', $._expression),
     inspected: ($) => seq('inspected', $.name),
+    visibility: ($) => seq('visibility', $.name),
     verify: ($) => seq('verify', $.name),
+    insertion: ($) => seq('insertion', $.name),
     sensor_model: ($) => seq('sensor_model', $.fields),
 
     fields: ($) => braced_list($, $.field),
@@ -215,6 +219,49 @@ module.exports = grammar({
     predicted: ($) => seq('predicted', $._expression),
     placed: ($) => seq('at', $._expression, optional(seq('facing', $._expression)), optional($.within)),
     within: ($) => seq('within', $._expression),
+
+    // ---- Studies ------------------------------------------------------------
+
+    // study reconstruction { program "solids.vpl"; methods gn, random; starts 16 }
+    study: ($) => seq('study', field('name', $.name), block($, $._study_statement)),
+    _study_statement: ($) =>
+      choice(
+        $.program_of,
+        $.task_of,
+        $.objects,
+        $.methods,
+        $.starts,
+        $.seeds,
+        $.noise,
+        $.published,
+        $.variant,
+        $._study_setting,
+      ),
+    program_of: ($) => seq('program', $.text),
+    task_of: ($) => seq('task', $.name),
+    objects: ($) => seq('objects', $._expression, repeat(seq(',', $._expression))),
+    methods: ($) => seq('methods', $.name, repeat(seq(',', $.name))),
+    starts: ($) => seq('starts', $._expression),
+    seeds: ($) => seq('seeds', $._expression),
+    noise: ($) => seq('noise', $.name, repeat(seq(',', $.name))),
+    published: ($) => seq('published', $.text),
+    // variant octomap { sensor_model { hit: 70 %, miss: 40 % } }
+    variant: ($) => seq('variant', field('name', $.name), block($, $._study_setting)),
+    _study_setting: ($) =>
+      choice(
+        $.camera,
+        $.views,
+        $.thresholds,
+        $.limit,
+        $.overlap,
+        $.gain_floor,
+        $.inspected,
+        $.verify,
+        $.sensor_model,
+        $.voxel_of,
+        $.backdrop,
+      ),
+    voxel_of: ($) => seq('voxel', $._expression),
 
     // ---- Expressions --------------------------------------------------------
 

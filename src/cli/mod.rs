@@ -6,9 +6,13 @@ mod completions;
 mod explain;
 mod files;
 mod fmt;
+mod inspect;
 mod lsp;
 mod new;
+mod output;
 mod plan;
+mod recording;
+mod study;
 mod test;
 mod why;
 
@@ -39,6 +43,8 @@ enum Verb {
     Fmt(fmt::Fmt),
     Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
+    Inspect(inspect::Inspect),
+    Study(study::Study),
     Test(test::Test),
     Why(why::Why),
     Completions(completions::Completions),
@@ -70,6 +76,15 @@ pub(crate) enum Failure {
     /// A layout would not have been the same program.
     #[error("error[{code}]: {0} is left as it is: laid out it would be another program", code = Code::E0604)]
     Layout(String),
+    /// Recorded frames cannot be used.
+    #[error("error[{code}]: {0}", code = Code::E0611)]
+    Recording(String),
+    /// A file is no OctoMap tree.
+    #[error("error[{code}]: {0} cannot be read as an OctoMap file: {1}", code = Code::E0612)]
+    OctoMap(String, String),
+    /// A folder holds something else than the study's rows.
+    #[error("error[{code}]: {0}", code = Code::E0605)]
+    Folder(String),
     /// A run log cannot be read.
     #[error("error[{code}]: {0} cannot be read: {1}", code = Code::E0711)]
     Log(String, String),
@@ -111,6 +126,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Fmt(fmt) => fmt::run(&fmt),
         Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Inspect(inspect) => inspect::run(&inspect),
+        Verb::Study(study) => study::run(&study),
         Verb::Test(test) => test::run(&test),
         Verb::Why(why) => why::run(&why),
         Verb::Completions(completions) => completions::run(&completions),

@@ -47,6 +47,8 @@ pub enum SymbolKind {
     Object,
     /// A test.
     Test,
+    /// A study.
+    Study,
 }
 
 /// The declarations of the main file, in the order of the text.
@@ -80,6 +82,7 @@ impl Reading<'_> {
                 }
             }
             Item::Test(test) => self.block(&test.name, SymbolKind::Test, test.head),
+            Item::Study(study) => self.block(&study.name, SymbolKind::Study, study.head),
             Item::Use(_) => return None,
         })
     }

@@ -1,8 +1,8 @@
 //! Every expression of a file, in the order of the text.
 
 use crate::lang::syntax::tree::{
-    Evidence, ExpectationKind as Expected, Expr, ExprKind, File, Item, Library, Parameter, TaskStatementKind as Kind,
-    Test,
+    Evidence, ExpectationKind as Expected, Expr, ExprKind, File, Item, Library, Parameter, Setting, Study,
+    StudyStatementKind as Studied, TaskStatementKind as Kind, Test,
 };
 
 /// Calls `see` with every expression, the outer before the inner.
@@ -26,6 +26,7 @@ pub(super) fn expressions<'t>(file: &'t File, see: &mut impl FnMut(&'t Expr)) {
                 }
             }
             Item::Test(test) => in_test(test, see),
+            Item::Study(study) => in_study(study, see),
             Item::Use(_) => {}
         }
     }
@@ -65,6 +66,29 @@ fn in_test<'t>(test: &'t Test, see: &mut impl FnMut(&'t Expr)) {
     }
 }
 
+fn in_study<'t>(study: &'t Study, see: &mut impl FnMut(&'t Expr)) {
+    for statement in &study.statements {
+        match &statement.kind {
+            Studied::Objects(objects) => objects.iter().for_each(|e| inside(e, see)),
+            Studied::Starts(e) | Studied::Seeds(e) => inside(e, see),
+            Studied::Variant(variant) => variant.settings.iter().for_each(|(s, _)| in_setting(s, see)),
+            Studied::Setting(setting) => in_setting(setting, see),
+            Studied::Program(_)
+            | Studied::Task(_)
+            | Studied::Methods(_)
+            | Studied::Noise(_)
+            | Studied::Published(_) => {}
+        }
+    }
+}
+
+fn in_setting<'t>(setting: &'t Setting, see: &mut impl FnMut(&'t Expr)) {
+    match setting {
+        Setting::Task(kind) => in_statement(kind, see),
+        Setting::Voxel(e) | Setting::Backdrop(e) => inside(e, see),
+    }
+}
+
 fn defaults<'t>(parameters: &'t [Parameter], see: &mut impl FnMut(&'t Expr)) {
     let defaults = parameters.iter().filter_map(|p| p.default.as_ref());
     defaults.for_each(|e| inside(e, see));
@@ -98,7 +122,13 @@ fn in_statement<'t>(kind: &'t Kind, see: &mut impl FnMut(&'t Expr)) {
             .into_iter()
             .for_each(|e| inside(e, see)),
         Kind::Thresholds(fields) | Kind::SensorModel(fields) => fields.iter().for_each(|f| inside(&f.value, see)),
-        Kind::Library(_) | Kind::Goal(_) | Kind::Method(_) | Kind::Inspected(_) | Kind::Verify(_) => {}
+        Kind::Library(_)
+        | Kind::Goal(_)
+        | Kind::Method(_)
+        | Kind::Inspected(_)
+        | Kind::Visibility(_)
+        | Kind::Verify(_)
+        | Kind::Insertion(_) => {}
     }
 }
 

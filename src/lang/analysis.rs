@@ -8,11 +8,12 @@ use super::diagnostics::{self, Diagnostic, Severity};
 use super::index::Index;
 use super::names::{self, Program};
 use super::source::{FileId, SourceMap};
+use super::studies::{self, Studied};
 use super::syntax::tree;
 use super::types::{self, typed};
 use super::world::World;
 use super::{checks, lower};
-use crate::rules::{Fact, RuleSet};
+use crate::rules::{Fact, RuleSet, Study};
 
 /// A program whose names and types are checked.
 #[derive(Debug)]
@@ -21,6 +22,8 @@ pub struct Analysis {
     typed: typed::Program,
     index: Index,
     sources: SourceMap,
+    /// The programs of its studies; `None` where they are not followed.
+    programs: Vec<Option<Studied>>,
     found: Vec<Diagnostic>,
 }
 
@@ -31,6 +34,8 @@ pub struct Expansion {
     pub rules: Option<RuleSet>,
     /// The tests of the main file, as far as they are right.
     pub facts: Vec<Fact>,
+    /// The studies of the main file, as far as they are right.
+    pub studies: Vec<Study>,
     /// Everything there is to say about the program, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -42,6 +47,8 @@ pub struct Compilation {
     pub rules: Option<RuleSet>,
     /// The tests of the main file; none where some diagnostic is an error.
     pub facts: Vec<Fact>,
+    /// The studies of the main file; none where some diagnostic is an error.
+    pub studies: Vec<Study>,
     /// Everything there is to say about it, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
     /// The files that were read. [`crate::rules::Place::file`] is a [`FileId`] here.
@@ -50,6 +57,14 @@ pub struct Compilation {
 
 /// Reads, resolves and types the program at `path`. Never panics, whatever the input.
 pub fn analyse(path: &str, world: &dyn World) -> Analysis {
+    let mut analysis = analyse_alone(path, world);
+    let studies = &analysis.typed.studies;
+    analysis.programs = studies::programs(studies, path, world, &mut analysis.found);
+    analysis
+}
+
+/// As [`analyse`], without the programs that its studies name.
+pub(super) fn analyse_alone(path: &str, world: &dyn World) -> Analysis {
     let mut sources = SourceMap::default();
     let (program, mut found) = names::load(path, world, &mut sources);
     let (typed, index, more) = program.as_ref().map(types::check).unwrap_or_default();
@@ -59,6 +74,7 @@ pub fn analyse(path: &str, world: &dyn World) -> Analysis {
         typed,
         index,
         sources,
+        programs: Vec::new(),
         found,
     }
 }
@@ -89,20 +105,22 @@ impl Analysis {
     pub fn expand(&self) -> Expansion {
         let mut diagnostics = self.found.clone();
         let lowered = self.program.as_ref().map(|program| {
-            let (lowered, found) = lower::lower(program, &self.typed, &self.sources);
+            let (lowered, found) = lower::lower(program, &self.typed, &self.sources, &self.programs);
             diagnostics.extend(found);
             diagnostics.extend(checks::check(&lowered));
-            (lowered.rules, lowered.facts)
+            (lowered.rules, (lowered.facts, lowered.studies))
         });
         diagnostics::in_order(&mut diagnostics);
         if diagnostics.iter().any(|d| d.severity == Severity::Error) {
             // What a task costs is of interest once it is one.
             diagnostics.retain(|d| d.severity != Severity::Note);
         }
-        let (rules, facts) = lowered.unzip();
+        let (rules, rest) = lowered.unzip();
+        let (facts, studies) = rest.unwrap_or_default();
         Expansion {
             rules,
-            facts: facts.unwrap_or_default(),
+            facts,
+            studies,
             diagnostics,
         }
     }
@@ -112,12 +130,14 @@ impl Analysis {
         let Expansion {
             rules,
             facts,
+            studies,
             diagnostics,
         } = self.expand();
         let failed = diagnostics.iter().any(|d| d.severity == Severity::Error);
         Compilation {
             rules: rules.filter(|_| !failed),
             facts: if failed { Vec::new() } else { facts },
+            studies: if failed { Vec::new() } else { studies },
             diagnostics,
             sources: self.sources,
         }

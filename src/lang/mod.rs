@@ -17,6 +17,7 @@ mod reading;
 mod repair;
 mod source;
 mod stdlib;
+mod studies;
 pub mod syntax;
 mod types;
 pub mod vocabulary;

@@ -1,6 +1,6 @@
 //! The language's own words, as data: for tools that offer or explain them.
 
-use super::types::{colours, features, forms, task, units};
+use super::types::{colours, features, forms, studies, task, units};
 use super::{names, stdlib};
 use crate::primitives::{Primitive, Type};
 use crate::rules::{Colour, FeatureKind, Value};
@@ -68,13 +68,16 @@ pub fn fields(statement: &str) -> &'static [(&'static str, Type)] {
     }
 }
 
-/// The words that a statement of a task takes.
+/// The words that a statement of a task or a study takes.
 pub fn words(statement: &str) -> &'static [&'static str] {
     match statement {
         "goal" => task::GOALS,
-        "method" => crate::rules::METHODS,
+        "method" | "methods" => crate::rules::METHODS,
+        "noise" => studies::NOISES,
         "inspected" => task::INSPECTED,
+        "visibility" => task::VISIBILITY,
         "verify" => task::VERIFY,
+        "insertion" => task::INSERTION,
         _ => &[],
     }
 }

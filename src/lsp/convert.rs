@@ -195,7 +195,9 @@ fn symbol_kind(kind: ide::SymbolKind) -> SymbolKind {
         ide::SymbolKind::Feature => SymbolKind::Property,
         ide::SymbolKind::Class => SymbolKind::Class,
         ide::SymbolKind::Rule => SymbolKind::Event,
-        ide::SymbolKind::Layout | ide::SymbolKind::Task | ide::SymbolKind::Scene => SymbolKind::Struct,
+        ide::SymbolKind::Layout | ide::SymbolKind::Task | ide::SymbolKind::Scene | ide::SymbolKind::Study => {
+            SymbolKind::Struct
+        }
         ide::SymbolKind::Object => SymbolKind::Object,
         ide::SymbolKind::Test => SymbolKind::Method,
     }

@@ -4,8 +4,9 @@
 //! they can be checked on worlds of a few voxels made by hand. The map is the
 //! one implementation that a session uses.
 
+use super::viewpoint::Viewpoint;
 use crate::geometry::Point;
-use crate::map::{Grid, Map, Occupancy, Voxel};
+use crate::map::{CentreView, Grid, Map, Occupancy, Voxel};
 
 /// A measured space, read only.
 pub trait World: Sync {
@@ -20,6 +21,10 @@ pub trait World: Sync {
     /// Whether no occupied voxel hides `voxel` from `eye`, except those whose
     /// centre lies within `tolerance` metres of its centre.
     fn visible(&self, eye: &Point, voxel: Voxel, tolerance: f64) -> bool;
+    /// What a view sees by the centres of voxels; `None` where only sight lines answer.
+    fn centre_view(&self, _: &Viewpoint) -> Option<CentreView> {
+        None
+    }
     /// Occupied voxels, ascending.
     fn occupied(&self) -> Vec<Voxel>;
     /// Rear-side voxels, ascending: unknown, face-adjacent to an occupied voxel
@@ -46,6 +51,11 @@ impl World for Map {
 
     fn visible(&self, eye: &Point, voxel: Voxel, tolerance: f64) -> bool {
         Map::visible(self, eye, voxel, tolerance)
+    }
+
+    fn centre_view(&self, view: &Viewpoint) -> Option<CentreView> {
+        let camera = view.camera();
+        Some(Map::centre_view(self, &camera.depth, camera.range, view.pose()))
     }
 
     fn occupied(&self) -> Vec<Voxel> {

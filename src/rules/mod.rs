@@ -11,6 +11,7 @@ mod library;
 mod scene;
 #[cfg(test)]
 mod schema;
+mod study;
 mod task;
 
 pub(crate) use artefact::hex;
@@ -19,6 +20,7 @@ pub use expr::{BadArgument, Call, Colour, Expr, Value};
 pub use facts::{Expectation, Expected, Fact, Flag, Given, State};
 pub use library::{Class, Each, Feature, FeatureId, FeatureKind, Library, Presence, Rule};
 pub use scene::{Backdrop, Marker, Scene, SceneObject};
+pub use study::{Settings, Study, Subject, Variant};
 #[cfg(test)]
 pub(crate) use task::BYTES_PER_VOXEL;
-pub use task::{Goal, Inspected, METHODS, SensorModel, Space, Task, Thresholds};
+pub use task::{Goal, Insertion, Inspected, METHODS, SensorModel, Space, Task, Thresholds, Visibility};

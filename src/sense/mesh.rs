@@ -15,6 +15,7 @@ mod read;
 mod stl;
 
 pub use error::{MeshError, MeshWarning};
+pub(super) use image::decode as decode_image;
 pub use options::{Axis, MeshOptions, Units};
 pub use read::read;
 

@@ -8,7 +8,9 @@ use vpl::plan::features::Predicted;
 use vpl::plan::instances::Finding;
 use vpl::plan::methods::{self, Choice, Situation};
 use vpl::plan::score::{self, Gains};
-use vpl::plan::{Existence, Knowledge, Proof, Proofs, Status, Trace, Viewpoint, World, predictions, reasoning};
+use vpl::plan::{
+    Existence, Knowledge, Look, Proof, Proofs, Status, Targets, Trace, Viewpoint, World, predictions, reasoning,
+};
 use vpl::primitives::Arguments;
 use vpl::rules::{BadArgument, FeatureId, Library, Rule, Task};
 
@@ -167,20 +169,25 @@ impl Trial {
         )
     }
 
+    fn look_from<'a, W: World>(&'a self, world: &'a W, view: usize) -> Look<'a, W> {
+        Look::of(world, &self.candidates[view], self.knowledge.criteria.visibility)
+    }
+
     /// n_ij(v) of a feature's only prediction.
     pub fn n<W: World>(&self, world: &W, feature: u32, view: usize) -> u64 {
-        score::reachable_count(world, &self.candidates[view], self.predicted(feature), &self.knowledge)
+        score::reachable_count(&self.look_from(world, view), self.predicted(feature), &self.knowledge)
     }
 
     /// G_so(v).
     pub fn surface<W: World>(&self, world: &W, view: usize) -> u64 {
-        score::surface_gain(world, &self.candidates[view], &world.rear_side(), &self.knowledge)
+        let rear = Targets::of(world, world.rear_side());
+        score::surface_gain(&self.look_from(world, view), &rear, &self.knowledge)
     }
 
     /// The share that G_ovlp judges.
     pub fn overlap<W: World>(&self, world: &W, view: usize) -> f64 {
         let parts = score::OverlapParts::of(world, &self.status);
-        score::overlap_share(world, &self.candidates[view], &parts, self.knowledge.criteria.near)
+        score::overlap_share(&self.look_from(world, view), &parts, self.knowledge.criteria.near)
     }
 
     /// The next view of a method, and whether the overlap was relaxed.
@@ -257,7 +264,7 @@ impl Trial {
                     scene.inspected(&instance).into_iter().collect::<Vec<_>>()
                 );
                 for (view, pose) in self.poses.iter().enumerate() {
-                    let n = score::reachable_count(world, &self.candidates[view], predicted, &self.knowledge);
+                    let n = score::reachable_count(&self.look_from(world, view), predicted, &self.knowledge);
                     assert_eq!(n, scene.n(&instance, pose) as u64, "n of view {view}");
                 }
                 instances.push(instance);

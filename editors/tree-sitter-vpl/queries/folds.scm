@@ -11,6 +11,8 @@
   (fields)
   (scene)
   (test)
+  (study)
+  (variant)
   (list)
   (call)
   (parameters)

@@ -18,6 +18,15 @@
   "task"
   "scene"
   "test"
+  "study"
+  "program"
+  "objects"
+  "methods"
+  "starts"
+  "seeds"
+  "noise"
+  "published"
+  "variant"
   "let"
   "many"
   "by"
@@ -38,7 +47,9 @@
   "method"
   "gain_floor"
   "inspected"
+  "visibility"
   "verify"
+  "insertion"
   "sensor_model"
   "backdrop"
   "object"
@@ -82,6 +93,8 @@
   (layout name: (name) @type.definition)
   (task name: (name) @type.definition)
   (scene name: (name) @type.definition)
+  (study name: (name) @type.definition)
+  (variant name: (name) @type.definition)
 ]
 
 (let name: (name) @function)
@@ -96,6 +109,7 @@
 (use_group (name) @function)
 (inclusion library: (name) @type.definition)
 (library_of (name) @type.definition)
+(task_of (name) @type.definition)
 (row name: (name) @type.definition)
 (marked (name) @type.definition)
 (expect class: (name) @type.definition)
@@ -110,8 +124,12 @@
 
 (goal (name) @constant.builtin)
 (method (name) @constant.builtin)
+(methods (name) @constant.builtin)
+(noise (name) @constant.builtin)
 (inspected (name) @constant.builtin)
+(visibility (name) @constant.builtin)
 (verify (name) @constant.builtin)
+(insertion (name) @constant.builtin)
 (supposed state: (name) @keyword)
 (expect state: (name) @keyword)
 

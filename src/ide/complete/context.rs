@@ -22,6 +22,8 @@ pub(in crate::ide) enum Block {
     Fields(&'static str),
     Scene,
     Test,
+    /// A study, or one of its variants.
+    Study,
     /// The braces of an import.
     Imports,
     /// A text or a comment.
@@ -136,13 +138,14 @@ fn opened(around: Block, words: &[Word<'_>]) -> Block {
         (Block::Top, "task") => Block::Task,
         (Block::Top, "scene") => Block::Scene,
         (Block::Top, "test") => Block::Test,
+        (Block::Top, "study") | (Block::Study, "variant") => Block::Study,
         (Block::Top, "use") => Block::Imports,
         (Block::Library, "rule") => Block::Rule,
         (Block::Library, "layout") => Block::Layout,
         (Block::Library, "class") => Block::Class,
         (Block::Library, "classes") => Block::Table,
-        (Block::Task, "thresholds") => Block::Fields("thresholds"),
-        (Block::Task, "sensor_model") => Block::Fields("sensor_model"),
+        (Block::Task | Block::Study, "thresholds") => Block::Fields("thresholds"),
+        (Block::Task | Block::Study, "sensor_model") => Block::Fields("sensor_model"),
         _ => Block::Prose,
     }
 }
@@ -176,7 +179,7 @@ fn is_item(first: &str, rest: &str, unfinished: bool) -> bool {
         "let" => !rest.is_empty(),
         "use" => rest.starts_with('"') || rest.split(' ').next().is_some_and(|word| word.contains('.')),
         // In a task, `library NAME` is a statement.
-        "library" | "task" | "scene" | "test" => rest.contains('{') || (unfinished && rest.contains('(')),
+        "library" | "task" | "scene" | "test" | "study" => rest.contains('{') || (unfinished && rest.contains('(')),
         _ => false,
     }
 }

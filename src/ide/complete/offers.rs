@@ -95,7 +95,7 @@ impl Offering<'_> {
             "library" | "marked" if self.context.block != Block::Top => self.libraries(),
             "as" => self.classes(),
             "goal" | "and" => words_of("goal"),
-            "method" | "inspected" | "verify" => words_of(word),
+            "method" | "methods" | "noise" | "inspected" | "visibility" | "verify" | "insertion" => words_of(word),
             "space" => vocabulary::forms("space").iter().map(called).collect(),
             "backdrop" => {
                 let none = Completion::new("none", Kind::Word).docs("Empty air.");
@@ -108,7 +108,7 @@ impl Offering<'_> {
             "for" => vec![keyword("each"), keyword("in")],
             "classes" => vec![keyword("by")],
             "feature" => self.of_feature(),
-            "class" | "layout" | "task" | "scene" => Vec::new(),
+            "class" | "layout" | "task" | "scene" | "study" | "variant" | "objects" => Vec::new(),
             _ => self.values(self.reading.due),
         }
     }

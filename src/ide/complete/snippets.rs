@@ -13,6 +13,7 @@ pub(super) fn statements(block: Block) -> Vec<Completion> {
         Block::Task => TASK,
         Block::Scene => SCENE,
         Block::Test => TEST,
+        Block::Study => STUDY,
         _ => &[],
     };
     words
@@ -46,6 +47,24 @@ const TOP: &[(&str, &str)] = &[
         "scene",
         "scene ${1:name} {\n  backdrop sphere(radius: 2 m, colour: grey)\n  object ${2:name} = $0 at [0 mm, 0 mm, 300 mm]\n}",
     ),
+    (
+        "study",
+        "study ${1:name} {\n  program \"${2:program.vpl}\"\n  methods ${3:gn, random}\n  starts  ${4:16}$0\n}",
+    ),
+];
+const STUDY: &[(&str, &str)] = &[
+    ("program", "program \"$0\""),
+    ("task", "task $0"),
+    ("objects", "objects $0"),
+    ("methods", "methods $0"),
+    ("starts", "starts ${1:16}"),
+    ("seeds", "seeds ${1:1}"),
+    ("noise", "noise $0"),
+    ("published", "published \"$0\""),
+    ("variant", "variant ${1:name} { $0 }"),
+    ("voxel", "voxel ${1:10 mm}"),
+    ("limit", "limit ${1:20} views"),
+    ("sensor_model", "sensor_model { hit: ${1:70 %}, miss: ${2:40 %} }"),
 ];
 const LIBRARY: &[(&str, &str)] = &[
     ("use", "use ${1:library}($0)"),
@@ -82,7 +101,9 @@ const TASK: &[(&str, &str)] = &[
     ("method", "method $0"),
     ("gain_floor", "gain_floor ${1:5} voxels"),
     ("inspected", "inspected $0"),
+    ("visibility", "visibility $0"),
     ("verify", "verify all"),
+    ("insertion", "insertion $0"),
     ("sensor_model", "sensor_model { hit: ${1:70 %}, miss: ${2:40 %} }"),
 ];
 const TEST: &[(&str, &str)] = &[

@@ -50,7 +50,7 @@ impl Reading {
                     self.declare(Kind::Scene, &scene.name);
                     scene.objects.iter().for_each(|o| self.declare(Kind::Object, &o.name));
                 }
-                Item::Test(_) => {}
+                Item::Test(_) | Item::Study(_) => {}
             }
         }
     }

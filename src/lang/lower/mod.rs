@@ -13,6 +13,7 @@ mod layout;
 mod library;
 mod ranges;
 mod scene;
+mod studies;
 mod task;
 
 pub(super) use layout::Placed;
@@ -21,8 +22,9 @@ pub(super) use task::TaskSpans;
 use super::diagnostics::Diagnostic;
 use super::names::Program;
 use super::source::{SourceMap, Span};
+use super::studies::Studied;
 use super::types::typed;
-use crate::rules::{FORMAT, Fact, Library, Place, RuleSet};
+use crate::rules::{FORMAT, Fact, Library, Place, RuleSet, Study};
 
 /// The rule set as far as the program is right, with spans for the task checks.
 pub(super) struct Lowered {
@@ -39,6 +41,8 @@ pub(super) struct Lowered {
     pub marks: Vec<Vec<Mark>>,
     /// The tests of the main file.
     pub facts: Vec<Fact>,
+    /// The studies of the main file.
+    pub studies: Vec<Study>,
 }
 
 /// `marked LIBRARY.LAYOUT as CLASS`.
@@ -56,7 +60,14 @@ pub(super) struct Mark {
 }
 
 /// Expands a checked program.
-pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceMap) -> (Lowered, Vec<Diagnostic>) {
+///
+/// `programs` are those that the studies name, in their order.
+pub(super) fn lower(
+    program: &Program,
+    typed: &typed::Program,
+    sources: &SourceMap,
+    programs: &[Option<Studied>],
+) -> (Lowered, Vec<Diagnostic>) {
     let language = program.main().tree.edition.as_ref().and_then(|e| e.text.parse().ok());
     let mut lowering = Lowering {
         typed,
@@ -80,6 +91,7 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         backdrop_spans: Vec::new(),
         marks: Vec::new(),
         facts: Vec::new(),
+        studies: Vec::new(),
     };
     let mut libraries = Vec::new();
     for library in &typed.libraries {
@@ -109,6 +121,7 @@ pub(super) fn lower(program: &Program, typed: &typed::Program, sources: &SourceM
         out.layouts.push(library.layouts);
         out.whole.push(library.whole);
     }
+    out.studies = lowering.studies(&out, programs);
     (out, lowering.found)
 }
 

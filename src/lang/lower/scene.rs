@@ -34,7 +34,7 @@ impl<'a> Lowering<'a> {
         (scene, marks)
     }
 
-    fn backdrop(&mut self, backdrop: &'a typed::Expr) -> Option<Backdrop> {
+    pub(super) fn backdrop(&mut self, backdrop: &'a typed::Expr) -> Option<Backdrop> {
         let call = self.primitive(backdrop, &Env::default())?;
         Some(Backdrop {
             radius: call.length("radius").ok()?,

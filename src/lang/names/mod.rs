@@ -122,6 +122,7 @@ pub(super) fn standard_home(name: &str) -> Option<&'static str> {
 }
 
 pub(super) use cycles::mentioned;
+pub(super) use modules::refused_path;
 
 /// Reports a name that is declared twice; `kind` is empty where the two are of
 /// different kinds.

@@ -138,20 +138,43 @@ impl Loader<'_> {
             Key::User(base) => base.rfind('/').map_or("", |at| &base[..=at]),
             Key::Standard(_) => "",
         };
-        let refuse = |help: &str| {
-            Diagnostic::new(Code::E0111, path.span, format!("`{}` is no relative path", path.text)).help(help)
-        };
-        if path.text.contains('\\') {
-            self.found.push(refuse("separate folders with `/`"));
+        if let Some(refused) = refused_path(path) {
+            self.found.push(refused);
             return None;
         }
-        if path.text.is_empty() || path.text.starts_with('/') || path.text.contains(':') {
-            self.found.push(refuse(
-                "give the path from this file's folder, like \"parts/markers.vpl\"",
+        let key = normal(&format!("{base}{}", path.text));
+        if let Some(name) = path.text.strip_prefix("std/")
+            && self.world.read(&format!("{}{key}", self.folder)).is_err()
+        {
+            let name = name.trim_end_matches(".vpl");
+            let message = format!("there is no file `{}`", path.text);
+            let out = Diagnostic::new(Code::E0105, path.span, message);
+            let help = format!("the standard library has no quotes: `use std.{name}.…`");
+            self.found.push(out.help(help));
+            return None;
+        }
+        if let Some(whole) = self.without_ending(&key) {
+            let (message, written) = (
+                format!("there is no file `{}`", path.text),
+                format!("{}.vpl", path.text),
+            );
+            let out = Diagnostic::new(Code::E0105, path.span, message);
+            self.found.push(out.help(format!("did you mean `{written}`?")).fix(
+                format!("write `{written}`"),
+                path.span,
+                format!("\"{written}\""),
             ));
-            return None;
+            return Some(Key::User(whole));
         }
-        Some(Key::User(normal(&format!("{base}{}", path.text))))
+        Some(Key::User(key))
+    }
+
+    /// The file that a path means whose `.vpl` was left out.
+    fn without_ending(&self, path: &str) -> Option<String> {
+        let whole = format!("{path}.vpl");
+        let read = |path: &str| self.world.read(&format!("{}{path}", self.folder));
+        let is_it = !path.ends_with(".vpl") && read(path).is_err() && read(&whole).is_ok();
+        is_it.then_some(whole)
     }
 
     fn source(&mut self, key: &Key, import: Option<Span>) -> Option<FileId> {
@@ -197,6 +220,17 @@ impl Loader<'_> {
         self.found.extend(found.into_iter().filter(|_| is_a_program));
         Some(tree)
     }
+}
+
+/// What is wrong with a path that should be relative to the file that names it.
+pub(in crate::lang) fn refused_path(path: &tree::Name) -> Option<Diagnostic> {
+    let refuse =
+        |help: &str| Diagnostic::new(Code::E0111, path.span, format!("`{}` is no relative path", path.text)).help(help);
+    if path.text.contains('\\') {
+        return Some(refuse("separate folders with `/`"));
+    }
+    let absolute = path.text.is_empty() || path.text.starts_with('/') || path.text.contains(':');
+    absolute.then(|| refuse("give the path from this file's folder, like \"parts/markers.vpl\""))
 }
 
 /// What is wrong with the edition line.

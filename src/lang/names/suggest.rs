@@ -2,7 +2,7 @@
 
 /// Words that begin a declaration and are no names.
 pub(in crate::lang) const RESERVED: &[&str] = &[
-    "library", "task", "feature", "rule", "class", "classes", "layout", "scene", "test", "use", "let",
+    "library", "task", "feature", "rule", "class", "classes", "layout", "scene", "test", "study", "use", "let",
 ];
 
 const FOREIGN: &[(&str, &str)] = &[
@@ -54,6 +54,9 @@ const FOREIGN: &[(&str, &str)] = &[
     ("when", "given"),
     ("suppose", "given"),
     ("fact", "test"),
+    ("suite", "study"),
+    ("experiment", "study"),
+    ("benchmark", "study"),
     ("sensor", "camera"),
     ("viewpoints", "views"),
     ("resolution", "voxel"),
@@ -69,6 +72,11 @@ const FOREIGN: &[(&str, &str)] = &[
     ("int", "count"),
     ("integer", "count"),
     ("float", "number"),
+    ("qr", "marker"),
+    ("qr_code", "marker"),
+    ("qrcode", "marker"),
+    ("tag", "marker"),
+    ("fiducial", "marker"),
 ];
 
 /// What a word of another language or habit is called here.

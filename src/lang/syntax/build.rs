@@ -197,6 +197,7 @@ impl Builder<'_> {
             Rule::tolerant_task => Item::Task(self.task(pair)?),
             Rule::tolerant_scene => Item::Scene(self.scene(pair)?),
             Rule::tolerant_test => Item::Test(self.test(pair)?),
+            Rule::tolerant_study => Item::Study(self.study(pair)?),
             _ => {
                 self.bad(&pair);
                 return None;

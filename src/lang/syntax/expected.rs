@@ -45,6 +45,7 @@ fn members(start: Rule) -> Option<&'static [Rule]> {
             Rule::kw_task,
             Rule::kw_scene,
             Rule::kw_test,
+            Rule::kw_study,
         ],
         Rule::entry_only => &[
             Rule::kw_use,
@@ -67,11 +68,27 @@ fn members(start: Rule) -> Option<&'static [Rule]> {
             Rule::kw_method,
             Rule::kw_gain_floor,
             Rule::kw_inspected,
+            Rule::kw_visibility,
             Rule::kw_verify,
+            Rule::kw_insertion,
             Rule::kw_sensor_model,
         ],
         Rule::scene_statement_only => &[Rule::kw_backdrop, Rule::kw_object],
         Rule::test_statement_only => &[Rule::kw_library, Rule::kw_given, Rule::kw_expect],
+        Rule::study_statement_only => &[
+            Rule::kw_program,
+            Rule::kw_task,
+            Rule::kw_objects,
+            Rule::kw_methods,
+            Rule::kw_starts,
+            Rule::kw_seeds,
+            Rule::kw_noise,
+            Rule::kw_published,
+            Rule::kw_variant,
+            Rule::kw_limit,
+            Rule::kw_voxel,
+            Rule::kw_sensor_model,
+        ],
         Rule::row_only => &[Rule::row],
         Rule::place_only => &[Rule::place],
         _ => return None,
@@ -132,6 +149,10 @@ fn describe(expected: Rule) -> Option<(u8, String)> {
         Rule::library | Rule::library_of => "`library`",
         Rule::task => "`task`",
         Rule::scene => "`scene`",
+        Rule::study => "`study`",
+        Rule::program_of => "`program`",
+        Rule::task_of => "`task`",
+        Rule::voxel_of => "`voxel`",
         Rule::feature => "`feature`",
         Rule::class => "`class`",
         Rule::classes | Rule::classes_head => "`classes`",
@@ -151,13 +172,18 @@ fn describe(expected: Rule) -> Option<(u8, String)> {
         | Rule::method
         | Rule::gain_floor
         | Rule::inspected
+        | Rule::visibility
         | Rule::verify
+        | Rule::insertion
         | Rule::sensor_model
         | Rule::backdrop
         | Rule::object
         | Rule::turned
         | Rule::marked
         | Rule::prior => return Some((1, format!("`{debug}`"))),
+        Rule::objects | Rule::methods | Rule::starts | Rule::seeds | Rule::noise | Rule::published | Rule::variant => {
+            return Some((1, format!("`{debug}`")));
+        }
         Rule::test | Rule::given | Rule::expect | Rule::within => return Some((1, format!("`{debug}`"))),
         Rule::state => "a state like `detected`",
         Rule::supposed => "a feature and what is known of it",

@@ -17,6 +17,7 @@ mod libraries;
 mod recover;
 mod same;
 mod slips;
+mod studies;
 mod tasks;
 mod tokens;
 pub mod tree;

@@ -30,6 +30,7 @@ pub enum Item {
     Task(Task),
     Scene(Scene),
     Test(Test),
+    Study(Study),
 }
 
 /// `use std.views.{sphere, ring}`.
@@ -234,7 +235,9 @@ pub enum TaskStatementKind {
     Method(Name),
     GainFloor(Expr),
     Inspected(Name),
+    Visibility(Name),
     Verify(Name),
+    Insertion(Name),
     SensorModel(Vec<Field>),
 }
 
@@ -261,7 +264,9 @@ impl TaskStatementKind {
             Self::Method(_) => "method",
             Self::GainFloor(_) => "gain_floor",
             Self::Inspected(_) => "inspected",
+            Self::Visibility(_) => "visibility",
             Self::Verify(_) => "verify",
+            Self::Insertion(_) => "insertion",
             Self::SensorModel(_) => "sensor_model",
         }
     }
@@ -368,6 +373,84 @@ pub enum ExpectationKind {
     Equal(Expr, Expr, Option<Expr>),
     /// `sphere(radius: 1 m, count: 64) count 64`.
     Count(Expr, Expr),
+}
+
+/// `study reconstruction { … }`.
+#[derive(Clone, Debug)]
+pub struct Study {
+    pub name: Name,
+    pub statements: Vec<StudyStatement>,
+    pub head: Span,
+    /// Whether every statement could be read.
+    pub whole: bool,
+    pub doc: String,
+}
+
+#[derive(Clone, Debug)]
+pub struct StudyStatement {
+    pub kind: StudyStatementKind,
+    pub span: Span,
+}
+
+#[derive(Clone, Debug)]
+pub enum StudyStatementKind {
+    /// A path relative to this file.
+    Program(Name),
+    Task(Name),
+    /// Names and `mesh(…)`.
+    Objects(Vec<Expr>),
+    Methods(Vec<Name>),
+    Starts(Expr),
+    Seeds(Expr),
+    Noise(Vec<Name>),
+    /// A path relative to this file.
+    Published(Name),
+    Variant(Variant),
+    Setting(Setting),
+}
+
+impl StudyStatementKind {
+    /// The word that begins it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Program(_) => "program",
+            Self::Task(_) => "task",
+            Self::Objects(_) => "objects",
+            Self::Methods(_) => "methods",
+            Self::Starts(_) => "starts",
+            Self::Seeds(_) => "seeds",
+            Self::Noise(_) => "noise",
+            Self::Published(_) => "published",
+            Self::Variant(_) => "variant",
+            Self::Setting(setting) => setting.word(),
+        }
+    }
+}
+
+/// `variant fine { voxel 5 mm }`.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    pub name: Name,
+    pub settings: Vec<(Setting, Span)>,
+}
+
+/// What a study changes of its task and scene.
+#[derive(Clone, Debug)]
+pub enum Setting {
+    Task(TaskStatementKind),
+    Voxel(Expr),
+    Backdrop(Expr),
+}
+
+impl Setting {
+    /// The word that begins it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Task(kind) => kind.word(),
+            Self::Voxel(_) => "voxel",
+            Self::Backdrop(_) => "backdrop",
+        }
+    }
 }
 
 /// `bottom, prism_side -> prism_shape`.

@@ -47,6 +47,14 @@ pub(in crate::lang) const BACKDROP_RADIUS: f64 = 2.0;
 /// Colour of a backdrop that is not described.
 pub(in crate::lang) const BACKDROP_COLOUR: Colour = Colour([128, 128, 128]);
 
+/// The backdrop where none is described.
+pub(in crate::lang) fn usual_backdrop() -> crate::rules::Backdrop {
+    crate::rules::Backdrop {
+        radius: BACKDROP_RADIUS,
+        colour: BACKDROP_COLOUR,
+    }
+}
+
 const fn length_form(name: &'static str, parameters: &'static [Parameter]) -> Primitive {
     Primitive {
         name,

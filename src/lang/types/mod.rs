@@ -24,6 +24,7 @@ mod scene;
 mod scope;
 mod shadowing;
 pub(super) mod stated;
+pub(super) mod studies;
 pub(super) mod task;
 pub(super) mod typed;
 pub(super) mod units;
@@ -227,12 +228,14 @@ impl<'a> Checker<'a> {
         names::unique("task", each(task_name), &mut self.found);
         names::unique("scene", each(scene_name), &mut self.found);
         names::unique("test", each(test_name), &mut self.found);
+        names::unique("study", each(study_name), &mut self.found);
         out.libraries = self.listed(file);
         for item in &file.items {
             match item {
                 tree::Item::Task(task) => out.tasks.extend(self.task(task, &out.libraries)),
                 tree::Item::Scene(scene) => out.scenes.push(self.scene(scene, &out.libraries)),
                 tree::Item::Test(test) => out.facts.push(self.fact(test, &out.libraries)),
+                tree::Item::Study(study) => out.studies.push(self.study(study)),
                 _ => {}
             }
         }
@@ -299,6 +302,13 @@ fn scene_name(item: &tree::Item) -> Option<&tree::Name> {
 fn test_name(item: &tree::Item) -> Option<&tree::Name> {
     match item {
         tree::Item::Test(test) => Some(&test.name),
+        _ => None,
+    }
+}
+
+fn study_name(item: &tree::Item) -> Option<&tree::Name> {
+    match item {
+        tree::Item::Study(study) => Some(&study.name),
         _ => None,
     }
 }

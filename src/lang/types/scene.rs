@@ -26,7 +26,7 @@ impl<'a> Checker<'a> {
     }
 
     /// `None` is empty air; no statement is the usual sphere.
-    fn backdrop(&mut self, described: Option<&tree::Expr>, head: crate::lang::source::Span) -> Option<Expr> {
+    pub(super) fn backdrop(&mut self, described: Option<&tree::Expr>, head: crate::lang::source::Span) -> Option<Expr> {
         let scope = Scope::of(self.program.main());
         let Some(described) = described else {
             let usual = tree::Call {

@@ -14,7 +14,7 @@ use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, TaskStatementKind as Kind};
 use crate::primitives::Type;
-use crate::rules::{Goal, Inspected, METHODS};
+use crate::rules::{Goal, Insertion, Inspected, METHODS, Visibility};
 
 /// The method where a task names none.
 const USUAL_METHOD: &str = "gn";
@@ -22,6 +22,10 @@ const USUAL_METHOD: &str = "gn";
 pub(in crate::lang) const GOALS: &[&str] = &["confident", "exhausted"];
 /// When a feature counts as inspected.
 pub(in crate::lang) const INSPECTED: &[&str] = &["observed", "near_point"];
+/// How measurements enter the map.
+pub(in crate::lang) const INSERTION: &[&str] = &["exact", "projective"];
+/// How it is decided what hides a voxel.
+pub(in crate::lang) const VISIBILITY: &[&str] = &["exact", "centre"];
 /// What is verified.
 pub(in crate::lang) const VERIFY: &[&str] = &["all"];
 pub(in crate::lang) const THRESHOLDS: &[(&str, Type)] = &[
@@ -39,16 +43,18 @@ pub(in crate::lang) const SENSOR_MODEL: &[(&str, Type)] = &[
 
 /// What the statements of a task gave so far.
 #[derive(Default)]
-struct Draft {
+pub(super) struct Draft {
     seen: BTreeMap<&'static str, Span>,
     library: Option<String>,
     goal: Option<(Goal, Span)>,
-    values: BTreeMap<&'static str, Expr>,
+    pub(super) values: BTreeMap<&'static str, Expr>,
     method: Option<String>,
-    inspected: Option<Inspected>,
-    verify: bool,
-    thresholds: BTreeMap<&'static str, Option<Expr>>,
-    sensor_model: BTreeMap<&'static str, Option<Expr>>,
+    pub(super) inspected: Option<Inspected>,
+    visibility: Option<Visibility>,
+    pub(super) verify: bool,
+    insertion: Option<Insertion>,
+    pub(super) thresholds: BTreeMap<&'static str, Option<Expr>>,
+    pub(super) sensor_model: BTreeMap<&'static str, Option<Expr>>,
 }
 
 impl<'a> Checker<'a> {
@@ -70,11 +76,16 @@ impl<'a> Checker<'a> {
     }
 
     fn statement(&mut self, statement: &tree::TaskStatement, draft: &mut Draft, libraries: &[Library]) {
-        match &statement.kind {
+        self.setting(&statement.kind, statement.span, draft, libraries);
+    }
+
+    /// Checks what a statement of a task says, wherever it stands.
+    pub(super) fn setting(&mut self, kind: &Kind, at: Span, draft: &mut Draft, libraries: &[Library]) {
+        match kind {
             Kind::Library(name) => draft.library = self.library_of(name, libraries),
             Kind::Goal(words) => {
-                let last = words.last().map_or(statement.span, |w| w.span);
-                let span = words.first().map_or(statement.span, |w| w.span.to(last));
+                let last = words.last().map_or(at, |w| w.span);
+                let span = words.first().map_or(at, |w| w.span.to(last));
                 draft.goal = self.goal(words).map(|goal| (goal, span));
             }
             Kind::Camera(e) => self.value(draft, "camera", e, Type::Camera),
@@ -100,12 +111,30 @@ impl<'a> Checker<'a> {
                     }
                 });
             }
+            Kind::Visibility(name) => {
+                draft.visibility = self.one_of_words(name, "`visibility`", VISIBILITY).map(|word| {
+                    if word == "centre" {
+                        Visibility::Centre
+                    } else {
+                        Visibility::Exact
+                    }
+                });
+            }
             Kind::Verify(name) => draft.verify = self.one_of_words(name, "`verify`", VERIFY).is_some(),
+            Kind::Insertion(name) => {
+                draft.insertion = self.one_of_words(name, "`insertion`", INSERTION).map(|word| {
+                    if word == "projective" {
+                        Insertion::Projective
+                    } else {
+                        Insertion::Exact
+                    }
+                });
+            }
             Kind::SensorModel(fields) => draft.sensor_model = self.fields(fields, SENSOR_MODEL, "sensor_model"),
         }
     }
 
-    fn value(&mut self, draft: &mut Draft, word: &'static str, e: &tree::Expr, ty: Type) {
+    pub(super) fn value(&mut self, draft: &mut Draft, word: &'static str, e: &tree::Expr, ty: Type) {
         let what = format!("`{word}`");
         let value = self.check(e, Due { ty, what: &what }, Scope::of(self.program.main()));
         draft.values.extend(value.map(|value| (word, value)));
@@ -233,7 +262,12 @@ impl<'a> Checker<'a> {
         });
     }
 
-    fn one_of_words(&mut self, name: &tree::Name, what: &str, words: &[&'static str]) -> Option<&'static str> {
+    pub(super) fn one_of_words(
+        &mut self,
+        name: &tree::Name,
+        what: &str,
+        words: &[&'static str],
+    ) -> Option<&'static str> {
         let found = words.iter().find(|w| **w == name.text).copied();
         match found {
             Some(word) => self.names.uses(name.span, Entity::Word(word)),
@@ -242,7 +276,7 @@ impl<'a> Checker<'a> {
         found
     }
 
-    fn method(&mut self, name: &tree::Name) -> Option<String> {
+    pub(super) fn method(&mut self, name: &tree::Name) -> Option<String> {
         let lower = name.text.to_ascii_lowercase();
         if let Some(word) = METHODS.iter().find(|word| **word == lower) {
             self.names.uses(name.span, Entity::Word(word));
@@ -349,7 +383,9 @@ fn assemble(task: &tree::Task, mut draft: Draft) -> Option<Task> {
         gain_floor: draft.values.remove("gain_floor"),
         method: draft.method.unwrap_or_else(|| USUAL_METHOD.to_owned()),
         inspected: draft.inspected.unwrap_or(Inspected::Observed),
+        visibility: draft.visibility.unwrap_or(Visibility::Exact),
         verify: draft.verify,
+        insertion: draft.insertion.unwrap_or_default(),
         sensor_model: (draft.sensor_model.into_iter())
             .filter_map(|(name, e)| Some((name, e?)))
             .collect(),

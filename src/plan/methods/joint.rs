@@ -160,18 +160,18 @@ impl Look {
 
 /// The look of every unvisited view.
 fn looks(situation: &Situation<'_>) -> Vec<Look> {
-    let views = situation.gains.views.par_iter();
-    views.map(|view| look(situation, *view)).collect()
+    let positions = (0..situation.gains.views.len()).into_par_iter();
+    positions.map(|position| look(situation, position)).collect()
 }
 
-fn look(situation: &Situation<'_>, view: usize) -> Look {
-    let (status, knowledge) = (situation.status, situation.knowledge);
+fn look(situation: &Situation<'_>, position: usize) -> Look {
+    let (status, knowledge, seen) = (situation.status, situation.knowledge, situation.look(position));
     let open = |id: &FeatureId| status.feature(*id).state == Existence::Unknown && status.weights[id.index()] > 0.0;
     let chance = |id: FeatureId| {
         let instances = status.feature(id).predicted.values();
         let shares = instances.map(|predicted| {
             let left = predicted.inspected.iter().filter(|done| !**done).count();
-            let n = score::reachable_count(situation.world, &situation.candidates[view], predicted, knowledge);
+            let n = score::reachable_count(&seen, predicted, knowledge);
             n as f64 / left.max(1) as f64
         });
         (id, shares.fold(0.0, f64::max))

@@ -21,9 +21,11 @@ mod ts;
 mod uv;
 
 use rand_pcg::Pcg64;
+use rayon::prelude::*;
 
 use super::error::PlanError;
 use super::knowledge::Knowledge;
+use super::look::{Look, Targets};
 use super::score::{self, Gains, OverlapParts};
 use super::status::Status;
 use super::viewpoint::Viewpoint;
@@ -148,22 +150,24 @@ impl Situation<'_> {
         positions.filter(|k| self.gains.total(*k) > 0.0).collect()
     }
 
-    /// The share that G_ovlp judges, for each of some positions.
-    pub fn overlaps(&self, positions: &[usize]) -> Vec<f64> {
-        use rayon::prelude::*;
-        let parts = OverlapParts::of(self.world, self.status);
+    /// The share that G_ovlp judges, for each of some ranks.
+    pub fn overlaps(&self, parts: &OverlapParts, ranks: &[Rank]) -> Vec<f64> {
         let near = self.knowledge.criteria.near;
-        let share = |k: &usize| score::overlap_share(self.world, self.view(*k), &parts, near);
-        positions.par_iter().map(share).collect()
+        let share = |rank: &Rank| score::overlap_share(&self.look(rank.position), parts, near);
+        ranks.par_iter().map(share).collect()
     }
 
     /// G_so of every unvisited view after the gain floor, whatever W is.
     pub fn surfaces(&self) -> Vec<u64> {
-        use rayon::prelude::*;
-        let rear = self.world.rear_side();
-        let views = self.gains.views.par_iter().map(|v| &self.candidates[*v]);
-        let surface = |view: &Viewpoint| score::surface_gain(self.world, view, &rear, self.knowledge);
-        views.map(surface).collect()
+        let rear = Targets::of(self.world, self.world.rear_side());
+        let positions = (0..self.gains.views.len()).into_par_iter();
+        let surface = |position: usize| score::surface_gain(&self.look(position), &rear, self.knowledge);
+        positions.map(surface).collect()
+    }
+
+    /// What an unvisited view sees.
+    pub fn look(&self, position: usize) -> Look<'_, dyn World + '_> {
+        Look::of(self.world, self.view(position), self.knowledge.criteria.visibility)
     }
 
     /// The choice by a value of every unvisited view, without an overlap
@@ -185,19 +189,24 @@ impl Situation<'_> {
         })
     }
 
-    /// The views of largest value, best first: of equals the nearest to the
-    /// current view, then the lowest index. The first is the choice, the others of
-    /// some value its rivals.
+    /// The views of largest value, best first, as [`Situation::sort`] puts them. The
+    /// first is the choice, the others of some value its rivals.
     pub fn ranked(&self, mut ranks: Vec<Rank>, value: impl Fn(&Rank) -> f64) -> Option<(Rank, Vec<Rank>)> {
+        self.sort(&mut ranks, &value);
+        ranks.truncate(1 + MOST_RIVALS);
+        let mut ranks = ranks.into_iter();
+        let best = ranks.next()?;
+        Some((best, ranks.filter(|rank| value(rank) > 0.0).collect()))
+    }
+
+    /// Puts views of larger value first: of equals the nearest to the current view,
+    /// then the lowest index.
+    pub fn sort(&self, ranks: &mut [Rank], value: impl Fn(&Rank) -> f64) {
         ranks.sort_by(|a, b| {
             let nearer = || self.distance(a.position).total_cmp(&self.distance(b.position));
             let larger = value(b).total_cmp(&value(a));
             larger.then_with(nearer).then_with(|| a.position.cmp(&b.position))
         });
-        ranks.truncate(1 + MOST_RIVALS);
-        let mut ranks = ranks.into_iter();
-        let best = ranks.next()?;
-        Some((best, ranks.filter(|rank| value(rank) > 0.0).collect()))
     }
 
     /// How far a view is from the current one, metres.
