@@ -13,7 +13,7 @@ use super::completion::{self, Completion, Outcome};
 use super::error::PlanError;
 use super::instances::Finding;
 use super::knowledge::Knowledge;
-use super::look::{Look, Targets};
+use super::look::Targets;
 use super::methods::{self, Choice, Method, Rank, Situation, Worth};
 use super::reasoning::{self, Proofs};
 use super::report::{self, Decision, Next, Standing, Terms, Update};
@@ -277,39 +277,39 @@ impl Session {
     }
 
     fn choose(&mut self, gains: &Gains) -> Option<Choice> {
-        let situation = Situation {
+        let mut random = self.random.clone();
+        let choice = self.method.choose(&self.situation(gains), &mut random);
+        self.random = random;
+        choice
+    }
+
+    fn situation<'a>(&'a self, gains: &'a Gains) -> Situation<'a> {
+        Situation {
             world: &self.map,
             knowledge: &self.knowledge,
             status: &self.status,
             candidates: &self.candidates,
             gains,
-            current: self.current(),
-        };
-        self.method.choose(&situation, &mut self.random)
-    }
-
-    /// Where the camera stands.
-    fn current(&self) -> Point {
-        self.status.visited.last().map_or_else(Point::origin, |v| *v.eye())
+            current: self.status.visited.last().map_or_else(Point::origin, |v| *v.eye()),
+        }
     }
 
     fn next(&self, gains: &Gains, choice: &Choice) -> Decision {
-        let current = self.current();
+        let situation = self.situation(gains);
         let rear = Targets::of(&self.map, self.map.rear_side());
         let standing = |rank: &Rank| {
             let (view, gain) = (gains.views[rank.position], &gains.feature[rank.position]);
-            let look = Look::of(&self.map, &self.candidates[view], self.knowledge.criteria.visibility);
             Standing {
                 view,
                 score: rank.score,
                 terms: Terms {
                     overlap: rank.overlap,
                     feature: gain.bits,
-                    surface: score::surface_gain(&look, &rear, &self.knowledge),
+                    surface: score::surface_gain(&situation.look(rank.position), &rear, &self.knowledge),
                     w: gains.w,
                 },
                 share: rank.share,
-                distance: (self.candidates[view].eye() - current).norm(),
+                distance: situation.distance(rank.position),
                 target: gain.target.as_ref().map(|t| report::named(t, &self.knowledge)),
             }
         };

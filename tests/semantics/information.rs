@@ -129,10 +129,10 @@ fn rays_that_end_nowhere_have_no_rear_side_and_no_average() {
 
 #[test]
 fn pc_counts_unknown_space_the_more_the_nearer_it_is_behind_a_surface() {
-    // d_max is 3 steps of 10 cm: three voxels behind the surface are occluded.
+    // d_max is 3 steps of 10 cm: the voxels behind the surface count 2, 1 and 0.
     let world = MicroWorld::parse("?..#????").scaled(0.1);
     let trial = from_both_sides(&world, 1);
-    check(&trial, &world, "pc", 1, 0.0 + 1.0 + 2.0);
+    check(&trial, &world, "pc", 1, 3.0);
     check(&trial, &world, "pc", 0, 0.0);
 }
 

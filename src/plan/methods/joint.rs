@@ -15,9 +15,9 @@
 //!
 //! Where the goal asks for no class, or no view can tell classes apart, the new surface
 //! that a view is expected to show decides (`prospect`); `joint2` adds what the best view
-//! after it would still show, for the few most promising ones. The run is then exhausted
-//! when no view is expected to show 1 − ξ_ned of the surface measured so far, or the gain
-//! floor, by what is predicted and what must be.
+//! after it would still show, for the few most promising ones. Where no class is asked
+//! for, the run is exhausted when no view is expected to show as much as the gain floor,
+//! by what is predicted and what must be.
 
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
@@ -104,10 +104,7 @@ fn by_surface(situation: &Situation<'_>, ahead: usize) -> Option<Choice> {
         look_ahead(situation, &prospect, &mut values);
     }
     let most = expected.iter().map(|e| e.firm).fold(0.0, f64::max);
-    // A plane of any direction crosses three voxels where it has two faces' area.
-    let measured = situation.world.occupied().len() as f64 / 1.5;
-    let share = (1.0 - situation.knowledge.criteria.absent) * measured;
-    let least = share.max(f64::from(situation.knowledge.task.gain_floor));
+    let least = f64::from(situation.knowledge.task.gain_floor.max(1));
     let choice = situation.largest(&values)?;
     Some(Choice {
         worth: Some(Worth { most, least }),
@@ -117,7 +114,7 @@ fn by_surface(situation: &Situation<'_>, ahead: usize) -> Option<Choice> {
 
 /// Adds to the most promising views what the best one after each would show; the
 /// others are no longer considered.
-fn look_ahead(situation: &Situation<'_>, prospect: &Prospect, values: &mut Vec<f64>) {
+fn look_ahead(situation: &Situation<'_>, prospect: &Prospect, values: &mut [f64]) {
     let viewpoint = |k: usize| &situation.candidates[situation.gains.views[k]];
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|a, b| values[*b].total_cmp(&values[*a]).then(a.cmp(b)));
@@ -132,7 +129,7 @@ fn look_ahead(situation: &Situation<'_>, prospect: &Prospect, values: &mut Vec<f
         )
     };
     let totals: Vec<(usize, f64)> = order.par_iter().map(with_next).collect();
-    *values = vec![0.0; values.len()];
+    values.fill(0.0);
     for (first, total) in totals {
         values[first] = total;
     }
