@@ -175,17 +175,12 @@ const HEIGHT: f64 = 0.7;
 
 fn codes(settings: &Settings, mut random: Pcg64) -> String {
     let (f, classes) = (settings.features, settings.classes);
-    let mut rows: Vec<u64> = Vec::new();
-    while (rows.len() as u64) < classes + classes.div_ceil(4) {
-        let row = random.random_range(1..1_u64 << f);
-        if row.count_ones() >= 2 && !rows.contains(&row) {
-            rows.push(row);
-        }
-    }
+    let rows = presences(f, classes, &mut random);
     let table = |name: &str, rows: &[u64]| -> String {
         let cells = |row: u64| (0..f).map(|k| format!(" {}", row >> k & 1)).collect::<String>();
+        let width = name.len() + rows.len().to_string().len();
         let rows = rows.iter().enumerate();
-        rows.map(|(k, row)| format!("    {name}{}{}\n", k + 1, cells(*row)))
+        rows.map(|(k, row)| format!("    {:<width$} {}\n", format!("{name}{}", k + 1), cells(*row)))
             .collect()
     };
     let (known, strange) = rows.split_at(classes as usize);
@@ -225,6 +220,27 @@ fn codes(settings: &Settings, mut random: Pcg64) -> String {
     )
 }
 
+/// Which codes the classes have, a bit each, and a quarter more that are of no class. All
+/// differ; every code is on some class and missing on another, and on some of no class.
+fn presences(features: u64, classes: u64, random: &mut Pcg64) -> Vec<u64> {
+    let every = (1_u64 << features) - 1;
+    loop {
+        let mut rows: Vec<u64> = Vec::new();
+        while (rows.len() as u64) < classes + classes.div_ceil(4).max(2) {
+            let row: u64 = random.random_range(1..=every);
+            if row.count_ones() >= 2 && !rows.contains(&row) {
+                rows.push(row);
+            }
+        }
+        let (known, strange) = rows.split_at(classes as usize);
+        let some = |rows: &[u64]| rows.iter().fold(0, |some, row| some | row);
+        let all = known.iter().fold(every, |all, row| all & row);
+        if some(known) == every && all == 0 && some(strange) == every {
+            return rows;
+        }
+    }
+}
+
 /// Two codes a side, above each other; then the top and the bottom.
 fn place(code: u64) -> String {
     let apothem = RADIUS * (std::f64::consts::PI / SIDES as f64).cos() + 0.003;
@@ -244,7 +260,7 @@ fn place(code: u64) -> String {
         let k = code - 2 * SIDES;
         let corner = (k / 2) as f64 * std::f64::consts::FRAC_PI_2;
         let z = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let at = [0.2 * corner.cos(), 0.2 * corner.sin(), z * (HEIGHT / 2.0 + 0.003)];
+        let at = [0.24 * corner.cos(), 0.24 * corner.sin(), z * (HEIGHT / 2.0 + 0.003)];
         (at, if z > 0.0 { "+z".to_owned() } else { "-z".to_owned() })
     };
     format!(

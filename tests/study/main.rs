@@ -235,7 +235,7 @@ fn wrong_usage_and_endless_studies_are_told_before_anything_runs() {
     bench.refused(&["solids.vpl", "--study", "other"], 2, "the file has `solids`");
     bench.refused(&["boxes.vpl"], 2, "the file has no study");
     let many = SOLIDS.replace("starts 4", "starts 12; seeds 1000000");
-    bench.write("many.vpl", &many.replace("methods gn", "methods random"));
+    bench.write("many.vpl", &many.replace("methods gn, random", "methods random"));
     bench.refused(&["many.vpl", "--out", "out"], 1, "at most 1000000");
     bench.write("starts.vpl", &SOLIDS.replace("starts 4", "starts 13"));
     bench.refused(
@@ -298,4 +298,19 @@ fn meshes_are_objects_and_a_changed_mesh_is_another_study() {
     bench.refused(&["mesh.vpl", "--out", "out"], 1, "meshes have changed");
     bench.write("part.obj", &mesh(0.001));
     bench.refused(&["mesh.vpl", "--out", "small"], 1, "in other units?");
+}
+
+#[test]
+fn the_suites_of_the_examples_can_be_run() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for folder in ["examples/studies", "examples/campaign"] {
+        for entry in fs::read_dir(here.join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_some_and(|e| e == "vpl") {
+                let mut command = Command::new(env!("CARGO_BIN_EXE_vpl"));
+                let out = command.arg("study").arg(&path).arg("--dry-run").output().unwrap();
+                assert_eq!(out.status.code(), Some(0), "{}", String::from_utf8_lossy(&out.stderr));
+            }
+        }
+    }
 }
