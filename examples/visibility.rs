@@ -113,7 +113,7 @@ fn of_run(
     let mut tally = Tally::default();
     for n in 1.. {
         let pose = exact.views()[view];
-        let observation = sensor.measure(n, view, &pose);
+        let observation = sensor.measure(n, view, &pose)?;
         exact.observe(view, &observation)?;
         centre.observe(view, &observation)?;
         tally.all += 1;

@@ -28,8 +28,6 @@ struct Table {
 
 fn tables() -> Vec<Table> {
     let usual = Setting::USUAL;
-    let table = |name, varies, settings| Table { name, varies, settings };
-    let over = |values: &[f64], with: fn(f64) -> Setting| values.iter().map(|&v| (v.to_string(), with(v))).collect();
     let large = Setting {
         space: 2000.0,
         voxel: 2.0,
@@ -89,6 +87,14 @@ fn tables() -> Vec<Table> {
             )],
         ),
     ]
+}
+
+fn table(name: &'static str, varies: &'static str, settings: Vec<(String, Setting)>) -> Table {
+    Table { name, varies, settings }
+}
+
+fn over(values: &[f64], with: fn(f64) -> Setting) -> Vec<(String, Setting)> {
+    values.iter().map(|&v| (v.to_string(), with(v))).collect()
 }
 
 fn main() -> ExitCode {

@@ -67,8 +67,9 @@ impl Setting {
             let _ = write!(
                 text,
                 "\n  feature face{k} : polygon\n  class with{k} {{ label, face{k} }}\n  \
-                 rule label -> face{k} {{\n    detect  coloured_plane(blue)\n    measure outline()\n    \
+                 rule label -> face{k} {{\n    detect  coloured_plane({})\n    measure outline()\n    \
                  predict rectangle_by_marker(label.pose, {}, width: 40 mm, height: 40 mm)\n  }}\n",
+                blue(k),
                 place(k, self.features)
             );
         }
@@ -92,6 +93,11 @@ impl Setting {
         );
         text
     }
+}
+
+/// A colour of its own for every face.
+fn blue(k: usize) -> String {
+    format!("#00{:02x}{:02x}", k / 64 * 4, 255 - k % 64 * 2)
 }
 
 /// Where a face is expected, in the axes of the label on the +x side: spread over the

@@ -6,10 +6,11 @@
 use super::depth_window::Pixels;
 use super::grid::{Grid, Voxel};
 use super::walk::each;
-use crate::geometry::{DepthRange, Intrinsics, Pose};
+use crate::geometry::{DepthRange, Intrinsics, Point, Pose};
 
-/// Most columns of the image: a larger one is made smaller.
-const MOST_COLUMNS: u32 = 640;
+/// Most pixels along an edge of a voxel in the middle of what is drawn: an image of more
+/// is made smaller, for finer ones tell no more of the voxels.
+const MOST_PIXELS: f64 = 2.0;
 /// What a rounded coordinate may be off by, relative.
 pub(super) const SLACK: f32 = 1e-5;
 
@@ -42,9 +43,15 @@ pub(super) struct Bound {
 }
 
 impl Projection {
-    pub fn of(grid: &Grid, image: &Intrinsics, range: DepthRange, world_from_camera: &Pose) -> Self {
-        let scale = f64::from(image.width.min(MOST_COLUMNS)) / f64::from(image.width.max(1));
+    /// An image of a view, small enough for the voxels around `middle`.
+    pub fn of(grid: &Grid, middle: &Point, image: &Intrinsics, range: DepthRange, world_from_camera: &Pose) -> Self {
         let camera_from_world = world_from_camera.inverse();
+        let pixels = image.fx.max(image.fy) * grid.voxel / (camera_from_world * middle).z.abs();
+        let scale = if pixels > MOST_PIXELS {
+            MOST_PIXELS / pixels
+        } else {
+            1.0
+        };
         let base = camera_from_world * grid.centre(Voxel(0));
         let rotation = camera_from_world.rotation.to_rotation_matrix();
         let steps = each(|axis| each(|k| rotation[(k, axis)] * grid.voxel));
@@ -95,7 +102,8 @@ impl Projection {
         inside.then_some((u as u32 as usize, v as u32 as usize))
     }
 
-    /// The pixels that a square across the optical axis touches.
+    /// The pixels that a square across the optical axis touches, less half a pixel to
+    /// every side, which touching adds on the average.
     #[inline(always)]
     pub fn square(&self, p: [f32; 3], half: f32) -> Option<Pixels> {
         let scale = 1.0 / p[2];
@@ -103,7 +111,7 @@ impl Projection {
             return None;
         }
         let [u, v] = [0, 1].map(|k| p[k] * scale * self.focal[k] + self.principal[k]);
-        let [du, dv] = [0, 1].map(|k| half * scale * self.focal[k]);
+        let [du, dv] = [0, 1].map(|k| (half * scale * self.focal[k] - 0.5).max(0.0));
         self.clipped([u - du, v - dv], [u + du, v + dv])
     }
 

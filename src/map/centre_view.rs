@@ -2,9 +2,9 @@
 //! and a voxel is hidden where something nearer was drawn at its centre.
 //!
 //! Coarser than sight lines and faster: cost follows the surface, whatever the image.
-//! An occupied voxel is drawn as a square of half a face's diagonal to every side, in
-//! all pixels that it touches, so that no roll of the camera leaves a hole between
-//! neighbours; where it errs, it errs towards hidden.
+//! An occupied voxel is drawn as a square of half a face's diagonal to every side, less
+//! half a pixel, in all pixels that it touches: so no roll of the camera leaves a pixel
+//! between neighbours. Where it errs, it errs towards hidden.
 
 use super::cell_projection::{Projection, SLACK};
 use super::clearance::Clearance;
@@ -12,7 +12,7 @@ use super::depth_window::DepthWindow;
 use super::grid::{Grid, Voxel};
 use super::layout::ones;
 use super::voxel_set::{Cube, VoxelSet};
-use crate::geometry::{DepthRange, Intrinsics, Pose};
+use crate::geometry::{DepthRange, Intrinsics, Point, Pose, Vector};
 
 /// What a depth camera would see of the occupied voxels.
 #[derive(Clone, Debug)]
@@ -31,7 +31,8 @@ impl CentreView {
         range: DepthRange,
         world_from_camera: &Pose,
     ) -> Self {
-        let projection = Projection::of(grid, image, range, world_from_camera);
+        let middle = middle(grid, clearance);
+        let projection = Projection::of(grid, &middle, image, range, world_from_camera);
         let mut view = Self {
             grid: *grid,
             drawn: window(&projection, clearance),
@@ -113,6 +114,13 @@ impl CentreView {
             None
         }
     }
+}
+
+/// The middle of the box of occupied blocks, metres.
+fn middle(grid: &Grid, clearance: &Clearance) -> Point {
+    let (first, sides) = clearance.extent();
+    let cells = [0, 1, 2].map(|k| f64::from(first[k]) + f64::from(sides[k]) / 2.0);
+    grid.origin + Vector::from(cells) * grid.voxel
 }
 
 /// The window that all occupied voxels are drawn in.

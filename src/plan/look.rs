@@ -7,39 +7,13 @@ use super::world::World;
 use crate::map::{CentreView, Grid, Voxel, VoxelSet};
 use crate::rules::Visibility;
 
-/// A view on a world as it is now. Made once a view: by centres, all that is occupied
-/// is drawn.
+/// A view on a world as it is now. By centres, what is occupied is drawn when something
+/// is first asked, once a look.
 pub struct Look<'a, W: ?Sized> {
     world: &'a W,
     view: &'a Viewpoint,
-    centres: Option<CentreView>,
-}
-
-/// A look that is made when it is first asked for.
-pub struct LazyLook<'a, W: ?Sized> {
-    world: &'a W,
-    view: &'a Viewpoint,
     visibility: Visibility,
-    look: OnceLock<Look<'a, W>>,
-}
-
-impl<'a, W: World + ?Sized> LazyLook<'a, W> {
-    /// What a view will see.
-    pub fn of(world: &'a W, view: &'a Viewpoint, visibility: Visibility) -> Self {
-        let look = OnceLock::new();
-        Self {
-            world,
-            view,
-            visibility,
-            look,
-        }
-    }
-
-    /// The look.
-    pub fn get(&self) -> &Look<'a, W> {
-        self.look
-            .get_or_init(|| Look::of(self.world, self.view, self.visibility))
-    }
+    centres: OnceLock<Option<CentreView>>,
 }
 
 /// Voxels to be counted in many looks.
@@ -62,11 +36,12 @@ impl Targets {
 impl<'a, W: World + ?Sized> Look<'a, W> {
     /// What a view sees.
     pub fn of(world: &'a W, view: &'a Viewpoint, visibility: Visibility) -> Self {
-        let centres = match visibility {
-            Visibility::Exact => None,
-            Visibility::Centre => world.centre_view(view),
-        };
-        Self { world, view, centres }
+        Self {
+            world,
+            view,
+            visibility,
+            centres: OnceLock::new(),
+        }
     }
 
     /// The world.
@@ -87,7 +62,7 @@ impl<'a, W: World + ?Sized> Look<'a, W> {
     /// Whether nothing hides a voxel but what lies within `tolerance` metres of it.
     #[inline]
     pub fn sees(&self, voxel: Voxel, tolerance: f64) -> bool {
-        match &self.centres {
+        match self.centres() {
             Some(centres) => centres.sees(voxel, tolerance),
             None => self.world.visible(self.view.eye(), voxel, tolerance),
         }
@@ -95,7 +70,7 @@ impl<'a, W: World + ?Sized> Look<'a, W> {
 
     /// Number of voxels inside the depth image and range that nothing hides.
     pub fn count(&self, targets: &Targets) -> usize {
-        match &self.centres {
+        match self.centres() {
             Some(centres) => centres.count(&targets.set) as usize,
             None => self.count_within(targets, 0.0),
         }
@@ -106,5 +81,12 @@ impl<'a, W: World + ?Sized> Look<'a, W> {
         let grid = self.world.grid();
         let reached = |v: &&Voxel| self.view.measures(&grid.centre(**v)) && self.sees(**v, tolerance);
         targets.voxels.iter().filter(reached).count()
+    }
+
+    fn centres(&self) -> Option<&CentreView> {
+        match self.visibility {
+            Visibility::Exact => None,
+            Visibility::Centre => self.centres.get_or_init(|| self.world.centre_view(self.view)).as_ref(),
+        }
     }
 }

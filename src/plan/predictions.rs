@@ -19,7 +19,7 @@ use super::expansion::{Expansion, expansions};
 use super::features::{Existence, FeatureStatus, Found, Pin, Predicted};
 use super::inspection::{self, evidence, inspected, predicted_voxels, reachable, tagged, touched};
 use super::knowledge::Knowledge;
-use super::look::LazyLook;
+use super::look::Look;
 use super::status::Status;
 use super::trace::{Nothing, Trace};
 use super::world::World;
@@ -49,10 +49,7 @@ pub fn refresh<W: World + ?Sized>(
 ) -> Result<(), PlanError> {
     let visited = status.visited.clone();
     let visibility = knowledge.criteria.visibility;
-    let visited: Vec<_> = visited
-        .iter()
-        .map(|view| LazyLook::of(world, view, visibility))
-        .collect();
+    let visited: Vec<_> = visited.iter().map(|view| Look::of(world, view, visibility)).collect();
     for id in knowledge.library.feature_ids() {
         let offers = offers(id, status, knowledge, trace)?;
         name_found(id, &offers, status, knowledge);
@@ -322,12 +319,7 @@ fn place<W: World + ?Sized>(
 
 /// Counts the views that a prediction has not been held against yet: the new
 /// one, or all where the prediction is new.
-fn inspect<W: World + ?Sized>(
-    feature: &mut FeatureStatus,
-    knowledge: &Knowledge,
-    visited: &[LazyLook<'_, W>],
-    world: &W,
-) {
+fn inspect<W: World + ?Sized>(feature: &mut FeatureStatus, knowledge: &Knowledge, visited: &[Look<'_, W>], world: &W) {
     let criteria = &knowledge.criteria;
     for predicted in feature.predicted.values_mut() {
         let (voxels, envelope) = (&predicted.voxels, &predicted.envelope);
@@ -338,7 +330,7 @@ fn inspect<W: World + ?Sized>(
             if k < blind {
                 return vec![false; voxels.len()];
             }
-            reachable(visited[k].get(), voxels, &touched, envelope, criteria.near, |_| true)
+            reachable(&visited[k], voxels, &touched, envelope, criteria.near, |_| true)
         };
         let looks: Vec<Vec<bool>> = missing.into_par_iter().map(look).collect();
         predicted.looks.extend(looks);

@@ -13,8 +13,8 @@ use super::completion::{self, Completion, Outcome};
 use super::error::PlanError;
 use super::instances::Finding;
 use super::knowledge::Knowledge;
-use super::look::Targets;
-use super::methods::{self, Method, Rank, Situation};
+use super::look::{Look, Targets};
+use super::methods::{self, Choice, Method, Rank, Situation, Worth};
 use super::reasoning::{self, Proofs};
 use super::report::{self, Decision, Next, Standing, Terms, Update};
 use super::score::{self, Gains};
@@ -252,55 +252,64 @@ impl Session {
     fn decide(&mut self) -> Completion {
         let unvisited: Vec<usize> = (0..self.visited.len()).filter(|v| !self.visited[*v]).collect();
         let gains = score::gains(&self.map, &self.candidates, &unvisited, &self.status, &self.knowledge);
+        let choice = self.choose(&gains);
+        let worth = choice.as_ref().and_then(|c| c.worth);
         let completion = Completion {
             confident: completion::confident(&self.status, &self.knowledge),
-            exhausted: gains.exhausted(),
+            exhausted: choice.is_none() || worth.map_or_else(|| gains.exhausted(), |w| w.exhausted()),
         };
         let totals = gains.views.iter().enumerate().map(|(k, view)| (*view, gains.total(k)));
         self.gains = totals.collect();
         let contradicted = self.status.contradiction.is_some();
         let views = self.status.visited.len();
         let ended = completion::outcome(completion, self.knowledge.task.goal, contradicted, views, self.limit);
-        self.decision = match ended {
-            Some(outcome) => self.end(outcome, completion, &gains),
-            None => self.choose(&gains, completion),
+        self.decision = match (ended, choice) {
+            (None, Some(choice)) => self.next(&gains, &choice),
+            (ended, _) => self.end(ended.unwrap_or(Outcome::Exhausted), completion, &gains, worth),
         };
         completion
     }
 
-    fn end(&self, outcome: Outcome, completion: Completion, gains: &Gains) -> Decision {
+    fn end(&self, outcome: Outcome, completion: Completion, gains: &Gains, worth: Option<Worth>) -> Decision {
         let mut end = report::end(outcome, completion, &self.status, &self.knowledge);
-        end.because = completion::because(&self.status, &self.knowledge, gains, self.limit);
+        end.because = completion::because(&self.status, &self.knowledge, gains, worth, self.limit);
         Decision::End(end)
     }
 
-    fn choose(&mut self, gains: &Gains, completion: Completion) -> Decision {
-        let current = self.status.visited.last().map_or_else(Point::origin, |v| *v.eye());
+    fn choose(&mut self, gains: &Gains) -> Option<Choice> {
         let situation = Situation {
             world: &self.map,
             knowledge: &self.knowledge,
             status: &self.status,
             candidates: &self.candidates,
             gains,
-            current,
+            current: self.current(),
         };
-        let Some(choice) = self.method.choose(&situation, &mut self.random) else {
-            return self.end(Outcome::Exhausted, completion, gains);
-        };
+        self.method.choose(&situation, &mut self.random)
+    }
+
+    /// Where the camera stands.
+    fn current(&self) -> Point {
+        self.status.visited.last().map_or_else(Point::origin, |v| *v.eye())
+    }
+
+    fn next(&self, gains: &Gains, choice: &Choice) -> Decision {
+        let current = self.current();
         let rear = Targets::of(&self.map, self.map.rear_side());
         let standing = |rank: &Rank| {
             let (view, gain) = (gains.views[rank.position], &gains.feature[rank.position]);
+            let look = Look::of(&self.map, &self.candidates[view], self.knowledge.criteria.visibility);
             Standing {
                 view,
                 score: rank.score,
                 terms: Terms {
                     overlap: rank.overlap,
                     feature: gain.bits,
-                    surface: score::surface_gain(&situation.look(rank.position), &rear, &self.knowledge),
+                    surface: score::surface_gain(&look, &rear, &self.knowledge),
                     w: gains.w,
                 },
                 share: rank.share,
-                distance: situation.distance(rank.position),
+                distance: (self.candidates[view].eye() - current).norm(),
                 target: gain.target.as_ref().map(|t| report::named(t, &self.knowledge)),
             }
         };

@@ -66,6 +66,32 @@ impl Viewpoint {
         resolved && image.project(&(self.camera_from_world * p)).is_some()
     }
 
+    /// The rays of the depth image through the centres of every k-th pixel of every
+    /// k-th row, k being the least that leaves at most `a_row` of a row: where each
+    /// enters and leaves the depth range, world axes.
+    pub fn rays(&self, a_row: u32) -> impl Iterator<Item = (Point, Point)> + use<> {
+        let (image, range) = (self.camera.depth, self.camera.range);
+        let world_from_camera = self.camera_from_world.inverse();
+        let every = image.width.div_ceil(a_row.max(1)).max(1) as usize;
+        let along = move |n: u32| (every / 2..n as usize).step_by(every).map(|k| k as f64 + 0.5);
+        let pixels = along(image.height).flat_map(move |v| along(image.width).map(move |u| (u, v)));
+        pixels.map(move |(u, v)| {
+            let ray = image.ray(u, v);
+            let at = |depth: f64| world_from_camera * Point::from(ray * depth);
+            (at(range.min), at(range.max))
+        })
+    }
+
+    /// The area across the line of sight that one of [`Viewpoint::rays`] stands for at
+    /// the depth of a point, m².
+    pub fn ray_area(&self, p: &Point, a_row: u32) -> f64 {
+        let image = &self.camera.depth;
+        let every = f64::from(image.width.div_ceil(a_row.max(1)).max(1));
+        let depth = (self.camera_from_world * p).z.max(0.0);
+        let cosine = depth / (p - self.eye).norm().max(1e-12);
+        every * every * depth * depth / (image.fx * image.fy) * cosine
+    }
+
     fn faces(&self, p: &Point, normal: &Vector, envelope: &Envelope) -> bool {
         let sight = self.eye - p;
         let along = normal.dot(&sight);

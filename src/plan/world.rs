@@ -14,6 +14,8 @@ pub trait World: Sync {
     fn grid(&self) -> &Grid;
     /// State of a voxel by measurement alone.
     fn occupancy(&self, voxel: Voxel) -> Occupancy;
+    /// P(occupied) of a voxel; `None` where it was never measured.
+    fn probability(&self, voxel: Voxel) -> Option<f64>;
     /// Whether a measured point lies within `radius` metres of `p` (PC_t of eq. 3).
     fn measured_within(&self, p: &Point, radius: f64) -> bool;
     /// Whether no occupied voxel hides `voxel` from `eye`, except those whose
@@ -37,6 +39,10 @@ impl World for Map {
 
     fn occupancy(&self, voxel: Voxel) -> Occupancy {
         Map::occupancy(self, voxel)
+    }
+
+    fn probability(&self, voxel: Voxel) -> Option<f64> {
+        Map::probability(self, voxel)
     }
 
     fn measured_within(&self, p: &Point, radius: f64) -> bool {

@@ -48,6 +48,32 @@ pub struct Task {
     pub place: Place,
 }
 
+/// The names of the methods of choosing views that a task can ask for.
+///
+/// `_implemented` is a method as its reference implementation has it, where that
+/// is not what was published.
+pub const METHODS: &[&str] = &[
+    "gn",
+    "gno",
+    "joint",
+    "joint2",
+    "oa",
+    "oa_implemented",
+    "uv",
+    "uv_implemented",
+    "rsv",
+    "rsv_implemented",
+    "rse",
+    "rse_implemented",
+    "pc",
+    "af",
+    "ae",
+    "ae_implemented",
+    "ts",
+    "pfdt",
+    "random",
+];
+
 /// The parts of the completion status that must be reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]

@@ -250,3 +250,18 @@ fn jobs(study: &Study, variants: &[Variant], arms: &[Arm]) -> Result<Vec<Job>, S
         })
         .collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lang::vocabulary;
+    use crate::sense::UnknownNoise;
+
+    #[test]
+    fn the_language_and_the_simulator_know_the_same_noises() {
+        for name in vocabulary::words("noise") {
+            let parsed = name.parse::<Noise>();
+            assert!(!matches!(parsed, Err(UnknownNoise::Unknown(_))), "{name}");
+        }
+    }
+}

@@ -105,14 +105,16 @@ impl<'a> Group<'a> {
     /// The least views from the start; it stops where 97 % are covered.
     fn cover(&self, job: &Job, sight: &Sight) -> Row {
         let mut row = run::blank(self.design, &self.stage, job);
-        let least = [0.95, 0.97, 0.99].map(|share| sight.least(job.start, share));
+        let limit = self.design.variant(job.arm).task.limit;
+        // More than the limit allows is never, as for methods.
+        let least = |share| sight.least(job.start, share).filter(|l| l.views <= limit);
+        let least = [0.95, 0.97, 0.99].map(least);
         let views = |k: usize| least[k].as_ref().map(|l| l.views);
         (row.to95, row.to97, row.to99) = (views(0), views(1), views(2));
         row.closed = Some(least.iter().flatten().all(|l| l.closed));
         row.sequence = least[1].as_ref().map_or(Vec::new(), |l| l.chosen.clone());
         row.path = rounded(run::path(&self.stage.views, &row.sequence));
-        let limit = self.design.variant(job.arm).task.limit;
-        row.views = row.to97.unwrap_or(limit).min(limit);
+        row.views = row.to97.unwrap_or(limit);
         row.outcome = if row.to97.is_some() { "bound" } else { "view_limit" }.into();
         row
     }

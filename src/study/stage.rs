@@ -62,8 +62,8 @@ impl Stage {
         Sight::new(&self.views.par_iter().map(seen).collect::<Vec<_>>())
     }
 
-    /// Which markers each candidate view decodes, were all that the study's objects
-    /// bear on this one. `None` where they would not fit on it.
+    /// Which markers each candidate view decodes, were all that any object bears on
+    /// this one. `None` where they would not fit on it.
     ///
     /// # Errors
     /// A view cannot be taken in.
@@ -108,11 +108,13 @@ fn simulator(study: &Study, object: usize, variant: &Variant, shown: &SceneObjec
     Ok(Simulator::from_mesh(simulator.mesh().clone(), moved, backdrop, space))
 }
 
-/// Every marker of the study's objects; `None` where there are none, or two of one text
-/// stand in different places.
+/// Every marker of the program's and the study's objects; `None` where there are none,
+/// or two of one text stand in different places.
 fn all_markers(study: &Study) -> Option<Vec<Marker>> {
     let mut all: Vec<Marker> = Vec::new();
-    for marker in study.objects.iter().flat_map(|s| &s.object.markers) {
+    let scenes = study.rules.scenes.iter().flat_map(|s| &s.objects);
+    let objects = scenes.chain(study.objects.iter().map(|s| &s.object));
+    for marker in objects.flat_map(|o| &o.markers) {
         match all.iter().find(|known| known.text == marker.text) {
             Some(known) if known != marker => return None,
             Some(_) => {}

@@ -316,7 +316,7 @@ fn a_rule_is_shown_as_written_as_long_as_the_program_has_it() {
     fs::write(folder.join("tanks.vpl"), moved).unwrap();
     let shown = why(&folder, &["run.jsonl", "r1"]).out;
     assert!(
-        shown.contains("rule -> code[i] {") && shown.contains("(tanks.vpl:36)") && !shown.contains("note:"),
+        shown.contains("rule -> code[i] {") && shown.contains("(tanks.vpl:37)") && !shown.contains("note:"),
         "{shown}"
     );
     let changed = text.replacen("f{i}", "g{i}", 1);

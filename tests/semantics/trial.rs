@@ -6,7 +6,7 @@ use vpl::detect::{Account, Condition, Measurement, Unit};
 use vpl::geometry::{Edge, Point, Polygon, Pose, look_at};
 use vpl::plan::features::Predicted;
 use vpl::plan::instances::Finding;
-use vpl::plan::methods::{self, Situation};
+use vpl::plan::methods::{self, Choice, Situation};
 use vpl::plan::score::{self, Gains};
 use vpl::plan::{
     Existence, Knowledge, Look, Proof, Proofs, Status, Targets, Trace, Viewpoint, World, predictions, reasoning,
@@ -196,18 +196,32 @@ impl Trial {
         if gains.exhausted() {
             return None;
         }
+        let choice = self.choice(world, method, &gains)?;
+        Some((gains.views[choice.best.position], choice.relaxed))
+    }
+
+    /// What a method values a view at, were it the only one left.
+    pub fn value<W: World>(&self, world: &W, method: &str, view: usize) -> f64 {
+        self.only(world, method, view).best.score
+    }
+
+    /// What a method would choose, were a view the only one left.
+    pub fn only<W: World>(&self, world: &W, method: &str, view: usize) -> Choice {
+        let gains = score::gains(world, &self.candidates, &[view], &self.status, &self.knowledge);
+        self.choice(world, method, &gains).unwrap()
+    }
+
+    fn choice<W: World>(&self, world: &W, method: &str, gains: &Gains) -> Option<Choice> {
         let situation = Situation {
             world,
             knowledge: &self.knowledge,
             status: &self.status,
             candidates: &self.candidates,
-            gains: &gains,
+            gains,
             current: *self.status.visited.last().unwrap().eye(),
         };
-        let choice = methods::method(method)
-            .unwrap()
-            .choose(&situation, &mut Pcg64::new(0, 0))?;
-        Some((gains.views[choice.best.position], choice.relaxed))
+        let method = methods::method(method).unwrap();
+        method.choose(&situation, &mut Pcg64::new(0, 0))
     }
 
     /// Holds every count and the next views to the reference. `measured` says

@@ -11,6 +11,7 @@ const PROGRAMS: &[&str] = &[
     include_str!("../../../examples/tanks/tanks.vpl"),
     include_str!("../../../stdlib/std/cameras.vpl"),
     include_str!("../../../stdlib/std/solids.vpl"),
+    include_str!("../../../examples/studies/ablation.vpl"),
     TEMPLATES,
     FACTS,
 ];
@@ -90,6 +91,9 @@ const SCRAPS: &[&str] = &[
     "within",
     "count",
     "not",
+    "study s {",
+    "variant v { voxel 5 mm }",
+    "methods",
 ];
 
 /// A program with some pieces cut out and scraps put in.

@@ -14,12 +14,8 @@ use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, TaskStatementKind as Kind};
 use crate::primitives::Type;
-use crate::rules::{Goal, Insertion, Inspected, Visibility};
+use crate::rules::{Goal, Insertion, Inspected, METHODS, Visibility};
 
-/// The methods of choosing views.
-pub(in crate::lang) const METHODS: &[&str] = &[
-    "gn", "gno", "joint", "oa", "uv", "rsv", "rse", "pc", "af", "ae", "ts", "pfdt", "random",
-];
 /// The method where a task names none.
 const USUAL_METHOD: &str = "gn";
 /// What a task can aim at.

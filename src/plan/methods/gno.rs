@@ -56,6 +56,7 @@ impl Method for Gno {
                 best,
                 relaxed: false,
                 rivals,
+                worth: None,
             });
         }
         let (best, rivals) = situation.ranked(failing, |rank| rank.share.unwrap_or(0.0))?;
@@ -63,6 +64,7 @@ impl Method for Gno {
             best,
             relaxed: true,
             rivals,
+            worth: None,
         })
     }
 }

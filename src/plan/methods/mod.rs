@@ -1,14 +1,24 @@
 //! Methods of choosing the next view: one file each, and one line in the list.
 //!
-//! A method sees the situation after a measurement and names a view. When to
-//! stop is not its business.
+//! A method sees the situation after a measurement and names a view. All stop by
+//! eq. 11, save those that say themselves whether the view is worth taking.
 
+mod ae;
+mod af;
 mod gn;
 mod gno;
 mod joint;
+mod oa;
+mod occluded;
+mod pc;
 mod pfdt;
+mod prospect;
 mod random;
+mod rays;
+mod rse;
+mod rsv;
 mod ts;
+mod uv;
 
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
@@ -21,6 +31,7 @@ use super::status::Status;
 use super::viewpoint::Viewpoint;
 use super::world::World;
 use crate::geometry::Point;
+use rays::Reading;
 
 /// A way of choosing views.
 pub trait Method: Sync {
@@ -30,15 +41,27 @@ pub trait Method: Sync {
     fn choose(&self, situation: &Situation<'_>, random: &mut Pcg64) -> Option<Choice>;
 }
 
-/// All methods.
+/// All methods, in the order of [`crate::rules::METHODS`].
 const METHODS: &[&dyn Method] = &[
     &gn::Gn,
     &gno::Gno,
     &joint::Joint,
     &joint::Joint2,
+    &oa::OcclusionAware(Reading::Published),
+    &oa::OcclusionAware(Reading::Implemented),
+    &uv::UnobservedVoxel(Reading::Published),
+    &uv::UnobservedVoxel(Reading::Implemented),
+    &rsv::RearSideVoxel(Reading::Published),
+    &rsv::RearSideVoxel(Reading::Implemented),
+    &rse::RearSideEntropy(Reading::Published),
+    &rse::RearSideEntropy(Reading::Implemented),
+    &pc::ProximityCount,
+    &af::AreaFactor,
+    &ae::AverageEntropy(Reading::Published),
+    &ae::AverageEntropy(Reading::Implemented),
+    &ts::TwoStages,
     &pfdt::Pfdt,
     &random::Random,
-    &ts::TwoStages,
 ];
 
 /// What a method chooses by.
@@ -79,6 +102,25 @@ pub struct Choice {
     pub relaxed: bool,
     /// A few that it was preferred to, best first; none where the method does not rank.
     pub rivals: Vec<Rank>,
+    /// Whether a view is worth taking, by the method's own measure; where `None`,
+    /// eq. 11 decides.
+    pub worth: Option<Worth>,
+}
+
+/// A method's own measure of what is left to gain, voxel faces of new surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worth {
+    /// The most that a view is expected to show.
+    pub most: f64,
+    /// The least that a view is worth taking for.
+    pub least: f64,
+}
+
+impl Worth {
+    /// s_ail: no view is worth taking.
+    pub fn exhausted(&self) -> bool {
+        self.most < self.least
+    }
 }
 
 /// Most views that a choice tells of beside the chosen one.
@@ -143,6 +185,7 @@ impl Situation<'_> {
             best,
             relaxed: false,
             rivals,
+            worth: None,
         })
     }
 
@@ -179,6 +222,11 @@ impl Situation<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_task_can_name_every_method() {
+        assert_eq!(names().collect::<Vec<_>>(), crate::rules::METHODS);
+    }
 
     #[test]
     fn names_are_read_in_any_case_and_unknown_ones_list_what_exists() {

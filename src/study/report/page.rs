@@ -85,7 +85,7 @@ fn short(x: f64) -> String {
 const STYLE: &str = "\
 :root { color-scheme: light dark; --line: color-mix(in srgb, currentColor 18%, transparent); }
 body { margin: 0; font: 16px/1.5 system-ui, sans-serif; }
-main { max-width: 62rem; margin: 0 auto; padding: 1rem; }
+main { max-width: 76rem; margin: 0 auto; padding: 1rem; }
 h1 { margin: 0.5rem 0; } h2 { margin: 2rem 0 0.5rem; font-size: 1.2rem; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.1rem 1rem; font-size: 0.9rem; }
 dt { font-weight: 600; } dd { margin: 0; overflow-wrap: anywhere; }

@@ -20,6 +20,10 @@ pub struct Plot {
 
 /// Size of a plot, pixels.
 const SIZE: (u32, u32) = (960, 480);
+/// Room for the legend beside the objects, as a share of theirs.
+const LEGEND: f64 = 0.2;
+/// Face and size of all letters.
+const LETTERS: (&str, u32) = ("sans-serif", 14);
 /// Colours that differ for colour-blind eyes too (Tol's bright and muted schemes).
 const COLOURS: [RGBColor; 14] = [
     RGBColor(0x44, 0x77, 0xaa),
@@ -87,7 +91,7 @@ fn over_objects(design: &Design, summary: &Summary, of: fn(&Line) -> Option<Inte
             .margin(12)
             .x_label_area_size(44)
             .y_label_area_size(52)
-            .build_cartesian_2d(-0.5..objects.len() as f64 - 0.5, 0.0..top)
+            .build_cartesian_2d(-0.5..objects.len() as f64 * (1.0 + LEGEND) - 0.5, 0.0..top)
             .map_err(|e| e.to_string())?;
         let name = |x: &f64| {
             let near = (x - x.round()).abs() < 0.01 && *x > -0.01;
@@ -99,7 +103,9 @@ fn over_objects(design: &Design, summary: &Summary, of: fn(&Line) -> Option<Inte
         chart
             .configure_mesh()
             .disable_x_mesh()
-            .x_labels((2 * objects.len()).clamp(2, 60))
+            .light_line_style(TRANSPARENT)
+            .label_style(LETTERS)
+            .x_labels((3 * objects.len()).clamp(2, 90))
             .x_label_formatter(&name)
             .x_desc("object")
             .y_desc("views")
@@ -147,6 +153,8 @@ fn over_views(design: &Design, summary: &Summary) -> Result<String, StudyError> 
             .map_err(|e| e.to_string())?;
         chart
             .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .label_style(LETTERS)
             .x_desc("views")
             .y_desc("coverage, %")
             .x_labels(longest.min(20))
@@ -175,6 +183,7 @@ type Chart<'a, 'b> = ChartContext<
 fn legend<'a, 'b: 'a>(chart: &mut Chart<'a, 'b>) -> Result<(), String> {
     chart
         .configure_series_labels()
+        .label_font(LETTERS)
         .background_style(WHITE.mix(0.85))
         .border_style(BLACK.mix(0.3))
         .position(SeriesLabelPosition::LowerRight)

@@ -42,7 +42,7 @@ impl Table {
         let rows: String = self.rows.iter().map(|row| cells(row, "td")).collect();
         let note = match self.note.as_str() {
             "" => String::new(),
-            note => format!("<p>{}</p>\n", escaped(note)),
+            note => format!("<p>{}</p>\n", with_code(note)),
         };
         format!(
             "<section>\n<h2>{}</h2>\n{note}<div class=\"wide\"><table>\n<thead>{}</thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n</section>\n",
@@ -50,6 +50,16 @@ impl Table {
             cells(&self.head, "th"),
         )
     }
+}
+
+/// Text whose parts between backticks are code.
+fn with_code(text: &str) -> String {
+    let parts = text.split('`').enumerate();
+    let part = |(k, part): (usize, &str)| match k % 2 {
+        0 => escaped(part),
+        _ => format!("<code>{}</code>", escaped(part)),
+    };
+    parts.map(part).collect()
 }
 
 /// Text as HTML shows it.
