@@ -4,6 +4,7 @@
 //! border falls on the same side as it does there.
 
 use super::grid::Grid;
+use super::readings::{RUN, Run};
 use super::walk::each;
 use crate::geometry::Point;
 
@@ -47,14 +48,28 @@ impl Keys {
     /// The voxel of a point, which may lie outside the grid.
     #[inline(always)]
     pub fn cell(&self, p: [f32; 3]) -> [i32; 3] {
-        each(|k| floor(self.scaled(p[k])) - self.first[k])
+        each(|k| floor(self.scaled(p[k])).wrapping_sub(self.first[k]))
+    }
+
+    /// The voxels of points, and which of these are near enough to have one.
+    #[inline(always)]
+    pub fn cells(&self, points: &Run) -> ([[i32; RUN]; 3], [bool; RUN]) {
+        let (mut cells, mut near) = ([[0; RUN]; 3], [true; RUN]);
+        for k in 0..3 {
+            let places = cells[k].iter_mut().zip(&mut near);
+            for ((cell, near), &x) in places.zip(&points[k]) {
+                *near &= (x * self.per_voxel).abs() < FARTHEST;
+                *cell = floor(self.scaled(x as f32)).wrapping_sub(self.first[k]);
+            }
+        }
+        (cells, near)
     }
 
     /// The octant of its voxel that a point lies in, 0 to 7.
     #[inline(always)]
-    pub fn octant(&self, p: [f32; 3]) -> u8 {
+    pub fn octant(&self, p: &Point) -> u8 {
         let upper = |k: usize| {
-            let x = self.scaled(p[k]);
+            let x = self.scaled(p[k] as f32);
             u8::from(x - f64::from(floor(x)) >= 0.5) << k
         };
         upper(0) | upper(1) | upper(2)
@@ -79,9 +94,28 @@ impl Keys {
     }
 }
 
-/// The floor; `f64::floor` is a call where the processor has no instruction for it.
+/// The floor of a number that an `i32` holds; `f64::floor` is a call where the
+/// processor has no instruction for it. Adding 1.5 · 2⁵² leaves the nearest whole
+/// number in the lowest bits.
 #[inline(always)]
 fn floor(x: f64) -> i32 {
-    let toward_zero = x as i32;
-    toward_zero - i32::from(f64::from(toward_zero) > x)
+    const SHIFT: f64 = 6_755_399_441_055_744.0;
+    let shifted = x + SHIFT;
+    let nearest = shifted.to_bits() as i32;
+    nearest.wrapping_sub(i32::from(shifted - SHIFT > x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_floor_is_the_floor() {
+        let halves = (-9..9).map(|n| f64::from(n) / 2.0);
+        let beside = |x: f64| [x.next_down(), x, x.next_up()];
+        let far = [-2.5e8, 2.5e8, 1e-300, -1e-300, 123_456_789.999_999];
+        for x in halves.chain(far).flat_map(beside) {
+            assert_eq!(f64::from(floor(x)), x.floor(), "{x}");
+        }
+    }
 }

@@ -13,7 +13,7 @@ pub(super) const VOXELS: usize = 64 * WORDS;
 pub(super) type Bits = [u64; WORDS];
 
 /// The bits that each axis has in the index of a voxel in its brick.
-pub(super) const AXES: [u32; 3] = [0b001_00_00_11, 0b010_00_11_00, 0b100_11_00_00];
+pub(super) const AXES: [u32; 3] = [0b0_0100_0011, 0b0_1000_1100, 0b1_0011_0000];
 
 /// Place of a voxel in the storage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

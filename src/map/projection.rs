@@ -170,7 +170,8 @@ impl<'a> Projection<'a> {
         let misses = std::array::from_fn(|word| match self.side(&spans, word) {
             Side::Beyond => 0,
             Side::Before => u64::MAX,
-            Side::Across { inside } => self.word(self.corners[0].beside(cube.centre, word), inside),
+            Side::Across { inside: true } => self.word::<true>(self.corners[0].beside(cube.centre, word)),
+            Side::Across { inside: false } => self.word::<false>(self.corners[0].beside(cube.centre, word)),
         });
         if misses != [0; WORDS] {
             self.mark(cube.first, &misses);
@@ -239,8 +240,8 @@ impl<'a> Projection<'a> {
         }
     }
 
-    /// Missed voxels of a word, one by one.
-    fn word(&self, [u, v, z]: Scaled, inside: bool) -> u64 {
+    /// Missed voxels of a word, one by one; all fall on the image where it is `INSIDE`.
+    fn word<const INSIDE: bool>(&self, [u, v, z]: Scaled) -> u64 {
         let (mut pixels, mut depths) = ([0_u32; 64], [0.0_f32; 64]);
         let (at, width) = (&self.voxels, self.size[0] as u32);
         for i in 0..64 {
@@ -248,7 +249,7 @@ impl<'a> Projection<'a> {
             let inverse = 1.0 / depth;
             let column = pixel((u + at.u[i]) * inverse);
             let row = pixel((v + at.v[i]) * inverse);
-            let seen = inside || (column < width && row < self.size[1] as u32 && depth > 0.0);
+            let seen = INSIDE || (column < width && row < self.size[1] as u32 && depth > 0.0);
             pixels[i] = row.wrapping_mul(width).wrapping_add(column);
             depths[i] = if seen { depth } else { f32::INFINITY };
         }

@@ -61,9 +61,7 @@ impl Tags {
 
     /// Whether a voxel has any tag.
     pub fn has(&self, at: Address) -> bool {
-        self.all
-            .get(&at.brick())
-            .is_some_and(|bits| bits[at.word()] & at.bit() != 0)
+        self.of_brick(at.brick())[at.word()] & at.bit() != 0
     }
 
     /// The tags of a voxel, ascending.
