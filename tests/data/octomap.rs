@@ -1,11 +1,11 @@
 //! Our OctoMap files read by OctoMap's tools, and theirs by us.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use vpl::geometry::Pose;
+use vpl::geometry::{Point, Pose, Vector};
 use vpl::map::{Map, Occupancy, OctoMap, Voxel, write_bt, write_ot};
 use vpl::rules::{SensorModel, Space};
 
@@ -15,8 +15,8 @@ use crate::support::{folder, inspect, installed, shared};
 /// The map of the rendered frames.
 fn map() -> Map {
     let space = Space {
-        centre: vpl::geometry::Point::new(0.0, 0.1, 0.2),
-        size: vpl::geometry::Vector::new(1.3, 1.1, 0.9),
+        centre: Point::new(0.0, 0.1, 0.2),
+        size: Vector::new(1.3, 1.1, 0.9),
         voxel: 0.02,
     };
     let mut map = Map::new(&space, SensorModel::default()).unwrap();
@@ -80,6 +80,39 @@ fn files_hold_every_measured_voxel() {
     assert_eq!(occupied, states.values().filter(|x| **x > 0.0).count());
 }
 
+/// A frame by a ray to every reading, against sets of voxels made one by one.
+#[test]
+fn a_ray_to_every_reading_misses_what_it_passes_and_hits_win() {
+    let (centre, size) = (Point::new(0.0, 0.1, 0.2), Vector::new(1.3, 1.1, 0.9));
+    let voxel = 0.017; // No face of the scene lies on a border.
+    let mut map = Map::new(&Space { centre, size, voxel }, SensorModel::default()).unwrap();
+    let frame = scene::frames().remove(1);
+    map.insert_every_ray(&frame);
+    let (grid, eye) = (*map.grid(), frame.eye());
+    let (mut hit, mut passed) = (BTreeSet::new(), BTreeSet::new());
+    let pixels = (0..frame.depth.height).flat_map(|v| (0..frame.depth.width).map(move |u| (u, v)));
+    for p in pixels.filter_map(|(u, v)| frame.point(u, v)) {
+        passed.extend(grid.along(&eye, &p));
+        hit.extend(grid.containing(&p));
+    }
+    let expected = |voxel: &Voxel| match (hit.contains(voxel), passed.contains(voxel)) {
+        (true, _) => Occupancy::Occupied,
+        (false, true) => Occupancy::Free,
+        (false, false) => Occupancy::Unknown,
+    };
+    let wrong = (0..grid.len())
+        .map(Voxel)
+        .filter(|v| map.occupancy(*v) != expected(v))
+        .count();
+    assert!(
+        hit.len() > 500 && passed.len() > 5000,
+        "{} hit, {} passed",
+        hit.len(),
+        passed.len()
+    );
+    assert!(wrong < 5, "{wrong} voxels differ");
+}
+
 #[test]
 fn an_empty_map_is_an_empty_tree() {
     let space = Space {
@@ -94,7 +127,7 @@ fn an_empty_map_is_an_empty_tree() {
 }
 
 fn simple() -> Box<Space> {
-    let (centre, size) = (vpl::geometry::Point::origin(), vpl::geometry::Vector::repeat(1.0));
+    let (centre, size) = (Point::origin(), Vector::repeat(1.0));
     Box::new(Space {
         centre,
         size,

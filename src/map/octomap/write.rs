@@ -1,5 +1,6 @@
 //! Maps as OctoMap trees.
 
+use std::collections::HashMap;
 use std::io::{self, Write};
 
 use super::{BINARY, DEPTH, FULL, ORIGIN_KEY};
@@ -43,11 +44,11 @@ enum Form {
 fn write(map: &Map, value: impl Fn(crate::map::Voxel) -> f32, form: Form, out: &mut impl Write) -> io::Result<()> {
     let first = first_key(map)?;
     let mut values: Vec<f32> = Vec::new();
+    let mut known: HashMap<u32, usize> = HashMap::new();
     let mut leaves: Vec<u64> = Vec::new();
     for voxel in map.measured() {
         let value = value(voxel);
-        let known = values.iter().position(|v| *v == value);
-        let index = known.unwrap_or_else(|| {
+        let index = *known.entry(value.to_bits()).or_insert_with(|| {
             values.push(value);
             values.len() - 1
         });
