@@ -99,6 +99,16 @@ fn results_and_runs() {
 }
 
 #[test]
+fn folders_of_studies() {
+    let at = folder("E0605");
+    let study = "\nstudy few {\n  task    recognise\n  methods gn\n  starts  1\n}\n";
+    fs::write(at.join("a.vpl"), format!("{TANKS}{study}")).unwrap();
+    fs::create_dir_all(at.join("out")).unwrap();
+    fs::write(at.join("out/thesis.tex"), "").unwrap();
+    says("E0605", &at, "out: a folder with a file of somebody's own", "study a.vpl --out out");
+}
+
+#[test]
 fn facts_that_do_not_hold() {
     let at = folder("E0701");
     let fact = "\ntest \"a tank without code 1 is tk1\" {\n  library tanks\n  given  code[1] absent\n  expect classes tk1\n}\n";
