@@ -36,9 +36,7 @@ pub(super) fn read(path: &Path, take: &mut dyn FnMut(&Message) -> Result<(), Fra
 fn why(error: &McapError) -> String {
     match error {
         McapError::UnsupportedCompression(name) => {
-            format!(
-                "its chunks are compressed with {name}, which is not read; `mcap decompress` unpacks them"
-            )
+            format!("its chunks are compressed with {name}, which is not read; `mcap decompress` unpacks them")
         }
         McapError::BadMagic => "it does not begin and end as an MCAP file does".to_owned(),
         McapError::UnexpectedEof => "it ends within a record; was it cut off? `mcap recover` mends it".to_owned(),
