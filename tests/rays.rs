@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
-use vpl::geometry::{Bounds, Intrinsics, Point, Vector, look_at};
-use vpl::map::{Map, Occupancy, PlanningGrid, Ray, RayCounts, Seen, Tag, Voxel, image_rays};
+use vpl::geometry::{Bounds, DepthRange, Intrinsics, Point, Vector, look_at};
+use vpl::map::{Map, Occupancy, PlanningGrid, Ray, RayCounts, Seen, Tag, Voxel, VoxelSet, image_rays};
 use vpl::rules::{SensorModel, Space};
 use vpl::sense::{ColourImage, DepthImage, Observation};
 
@@ -160,6 +160,28 @@ proptest! {
             prop_assert_eq!(grid.unknown_on_rays(rays), naive_counts(&map, &grid, rays, false));
             prop_assert_eq!(grid.distinct_unknown(rays, &mut seen), naive_counts(&map, &grid, rays, true));
         }
+    }
+
+    #[test]
+    fn the_first_hit_is_the_first_occupied_voxel_of_the_walk(map in map(), rays in prop::collection::vec(ray(), 1..40)) {
+        let (grid, visibility) = (map.planning_grid(), map.visibility());
+        for ray in &rays {
+            let walked = met(&grid, ray).into_iter().find(|v| map.occupancy(*v) == Occupancy::Occupied);
+            prop_assert_eq!(visibility.first_hit(ray), walked, "{:?}", ray);
+        }
+    }
+
+    /// In an image that holds the whole space, a set counts what is seen one by one.
+    #[test]
+    fn centres_are_counted_as_they_are_seen(
+        map in map(), eye in point(1.0).prop_filter("outside", |p| p.coords.norm() > 1.4), some in prop::collection::vec(0..1989_u32, 1..400),
+    ) {
+        let image = Intrinsics::with_fields_of_view(90, 90, 1.8, 1.8);
+        let view = map.centre_view(&image, DepthRange { min: 0.1, max: 9.0 }, &look_at(eye, Point::origin()));
+        let some: BTreeSet<Voxel> = some.into_iter().map(Voxel).collect();
+        let seen = some.iter().filter(|v| view.sees(**v, 0.0)).count() as u64;
+        let set = VoxelSet::of(map.grid(), &some.iter().copied().collect::<Vec<_>>());
+        prop_assert_eq!((set.len(), view.count(&set)), (some.len() as u64, seen));
     }
 
     /// Eyes, targets and borders at multiples of a quarter voxel.
