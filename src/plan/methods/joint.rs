@@ -16,8 +16,8 @@
 //! Where the goal asks for no class, or no view can tell classes apart, the new surface
 //! that a view is expected to show decides (`prospect`); `joint2` adds what the best view
 //! after it would still show, for the few most promising ones. Where no class is asked
-//! for, the run is exhausted when no view is expected to show as much as the gain floor,
-//! by what is predicted and what must be.
+//! for, the run is exhausted when no view is expected to show 1 − ξ_ned of the surface
+//! measured so far, or the gain floor, by what is predicted and what must be.
 
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
@@ -104,7 +104,10 @@ fn by_surface(situation: &Situation<'_>, ahead: usize) -> Option<Choice> {
         look_ahead(situation, &prospect, &mut values);
     }
     let most = expected.iter().map(|e| e.firm).fold(0.0, f64::max);
-    let least = f64::from(situation.knowledge.task.gain_floor.max(1));
+    // A plane of any direction crosses three voxels where it has two faces' area.
+    let measured = situation.world.occupied().len() as f64 / 1.5;
+    let share = (1.0 - situation.knowledge.criteria.absent) * measured;
+    let least = share.max(f64::from(situation.knowledge.task.gain_floor));
     let choice = situation.largest(&values)?;
     Some(Choice {
         worth: Some(Worth { most, least }),
