@@ -1,4 +1,5 @@
-//! Times of the map: inserting dense frames, sight lines, rear sides.
+//! Times of the map: inserting dense frames, sight lines, rear sides, rays and centre
+//! views.
 //!
 //! `cargo bench --bench map [-- VOXEL]`, the voxel's edge in metres. Every pixel returns: what misses the object, a
 //! heap of balls, meets a backdrop of radius 2 m. Set `RAYON_NUM_THREADS=1` for
@@ -8,7 +9,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use vpl::geometry::{Camera, DepthRange, Intrinsics, Point, Vector, look_at};
-use vpl::map::{Map, Voxel};
+use vpl::map::{Map, Occupancy, Ray, RayCounts, Seen, Voxel, VoxelSet, image_rays};
 use vpl::rules::{SensorModel, Space};
 use vpl::sense::{ColourImage, DepthImage, Observation};
 
@@ -73,6 +74,8 @@ fn decision(map: &Map) {
             targets.len()
         );
     }
+    rays(map);
+    centres(map, &targets, &eyes);
     let (near, ms) = timed(|| {
         let near = |v: &&Voxel| map.measured_within(&map.grid().centre(**v), map.grid().voxel);
         targets.iter().filter(near).count()
@@ -91,11 +94,76 @@ fn spread(map: &Map, rear: Vec<Voxel>) -> Vec<Voxel> {
     voxels.into_iter().step_by(step).collect()
 }
 
+/// Rays of 8 images on the planning grid, against the plain walk of the grid.
+fn rays(map: &Map) {
+    let image = Intrinsics::with_fields_of_view(160, 120, 60.0_f64.to_radians(), 46.8_f64.to_radians());
+    let of = |eye: Point| image_rays(&image, 1, 2.4, &look_at(eye, Point::origin())).collect::<Vec<_>>();
+    let views: Vec<Vec<Ray>> = fibonacci(8, 1.2).into_iter().map(of).collect();
+    let (grid, made) = timed(|| map.planning_grid());
+    let (counts, ms) = timed(|| views.iter().map(|v| grid.unknown_on_rays(v)).sum::<RayCounts>());
+    let (_, distinct) = timed(|| {
+        let mut seen = Seen::new(&grid);
+        views
+            .iter()
+            .map(|v| grid.distinct_unknown(v, &mut seen))
+            .sum::<RayCounts>()
+    });
+    let (_, plain) = timed(|| views.iter().flatten().map(|ray| plain_unknown(map, ray)).sum::<u64>());
+    let (hits, first) = timed(|| {
+        let visibility = map.visibility();
+        views
+            .iter()
+            .flatten()
+            .filter(|ray| visibility.first_hit(ray).is_some())
+            .count()
+    });
+    let number = views.iter().map(Vec::len).sum::<usize>() as f64;
+    println!("  planning grid {made:.2} ms");
+    println!(
+        "  unknown on rays: {:.2} ns a voxel, {:.1} x the plain walk; each once: {:.2} ns",
+        ms * 1e6 / counts.steps as f64,
+        plain / ms,
+        distinct * 1e6 / counts.steps as f64
+    );
+    println!(
+        "  first hits: {:.0} ns a ray, {:.1} x the walk, {hits} hits",
+        first * 1e6 / number,
+        ms / first
+    );
+}
+
+fn plain_unknown(map: &Map, ray: &Ray) -> u64 {
+    let voxels = map.grid().along(ray.origin(), &ray.at(2.4)).map(|v| map.occupancy(v));
+    let before = voxels.take_while(|state| *state != Occupancy::Occupied);
+    before.filter(|state| *state == Occupancy::Unknown).count() as u64
+}
+
+/// Targets counted by their centres, against sight lines.
+fn centres(map: &Map, targets: &[Voxel], eyes: &[Point]) {
+    let image = Intrinsics::with_fields_of_view(640, 480, 60.0_f64.to_radians(), 46.8_f64.to_radians());
+    let range = DepthRange { min: 0.1, max: 9.0 };
+    let set = VoxelSet::of(map.grid(), targets);
+    let (exact, lines) = timed(|| seen(map, eyes, targets, 0.0));
+    let (count, ms) = timed(|| {
+        let view = |eye: &Point| {
+            map.centre_view(&image, range, &look_at(*eye, Point::origin()))
+                .count(&set)
+        };
+        eyes.iter().map(view).sum::<u64>()
+    });
+    println!(
+        "  centre views: {:.2} ms each, {:.1} x sight lines; {:.1} % of their voxels seen",
+        ms / eyes.len() as f64,
+        lines / ms,
+        100.0 * count as f64 / exact as f64
+    );
+}
+
 fn seen(map: &Map, eyes: &[Point], targets: &[Voxel], tolerance: f64) -> usize {
     let visibility = map.visibility();
     let from = |eye: &Point| {
-        let sight = visibility.from(eye, tolerance);
-        targets.iter().filter(|v| sight.sees(**v)).count()
+        let sight = visibility.from(eye);
+        targets.iter().filter(|v| sight.sees(**v, tolerance)).count()
     };
     eyes.iter().map(from).sum()
 }

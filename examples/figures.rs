@@ -3,6 +3,7 @@
 //!
 //! ```text
 //! cargo run --release --example figures -- FILE [--starts N] [--method NAME] [--noise NAME] [--limit N]
+//!     [--visibility exact|centre]
 //! ```
 //!
 //! Start views are ⌊k · count / N⌋. Exits with 1 where a run does not reach its
@@ -14,7 +15,7 @@ use rayon::prelude::*;
 use vpl::cli::Disk;
 use vpl::lang;
 use vpl::plan::{ClosedLoop, Decision, End, Options, Outcome, Part, Phase, Session, Simulated};
-use vpl::rules::{RuleSet, Scene, SceneObject, Task};
+use vpl::rules::{RuleSet, Scene, SceneObject, Task, Visibility};
 use vpl::sense::{Coverage, Noise, Simulator};
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
@@ -35,6 +36,7 @@ struct Settings {
     method: Option<String>,
     noise: Noise,
     limit: Option<u32>,
+    visibility: Option<Visibility>,
 }
 
 /// One run.
@@ -53,6 +55,7 @@ fn table(mut arguments: impl Iterator<Item = String>) -> Result<bool, Failure> {
         method: None,
         noise: Noise::None,
         limit: None,
+        visibility: None,
     };
     while let Some(option) = arguments.next() {
         let value = arguments.next().ok_or_else(|| format!("`{option}` needs a value"))?;
@@ -61,12 +64,16 @@ fn table(mut arguments: impl Iterator<Item = String>) -> Result<bool, Failure> {
             "--method" => settings.method = Some(value),
             "--noise" => settings.noise = value.parse()?,
             "--limit" => settings.limit = Some(value.parse()?),
+            "--visibility" => settings.visibility = Some(serde_json::from_value(value.into())?),
             _ => return Err(format!("unknown option `{option}`").into()),
         }
     }
-    let rules = lang::compile(&file, &Disk)
+    let mut rules = lang::compile(&file, &Disk)
         .rules
         .ok_or("the program has errors; see `vpl check`")?;
+    if let (Some(visibility), Some(task)) = (settings.visibility, rules.tasks.first_mut()) {
+        task.visibility = visibility;
+    }
     let (task, scene) = (rules.tasks.first(), rules.scenes.first());
     let (task, scene) = task.zip(scene).ok_or("the program needs a task and a scene")?;
     println!("| object | runs | goal | right | wrong | views mean | min | max | coverage mean | worst |");
@@ -138,6 +145,7 @@ fn run(
         method: settings.method.clone(),
         seed,
         limit: settings.limit,
+        ..Options::default()
     };
     let mut session = Session::new(rules, &task.name, options)?;
     let sensor = Simulated {

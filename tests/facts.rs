@@ -145,6 +145,17 @@ fn measured_instances_predict_others() {
         "found the nearest 5 mm away",
     );
     holds(&format!("given bottom = square\n expect side at {off} within 5 mm"));
+    // A predictor stands for the face that it predicts.
+    let wall = |edge: u32, height: &str| format!("rectangle_on(edge_of(square, {edge}), 90 deg, {height})");
+    holds(&format!("given bottom = square\n expect side at {}", wall(1, "300 mm")));
+    fails(
+        &format!("given bottom = square\n expect side at {}", wall(1, "320 mm")),
+        "found the nearest 20 mm away",
+    );
+    fails(
+        "given bottom = square\n expect side at polygon([[0 m, 1 m, 0 m], [0 m, 0 m, 0 m], [0 m, 0 m, 300 mm]])",
+        "found 4 of 4 corners, and this has 3",
+    );
     fails(
         "given bottom detected\n expect side predicted 4",
         "no place is given for `bottom`",
@@ -167,7 +178,7 @@ fn a_layout_carries_a_marker_over_to_the_others() {
     ));
     fails(
         &format!("{given}\n expect tag at [1 m, 1900 mm, 3 m] facing -y"),
-        "found the nearest 50 mm away",
+        "the nearest is `at [1000 mm, 1900 mm, 3050 mm] facing -y`",
     );
 }
 

@@ -74,7 +74,8 @@ fn eye() -> impl Strategy<Value = Point> {
 
 fn frame() -> impl Strategy<Value = Observation> {
     let target = prop::array::uniform3(-0.2..0.2_f64).prop_map(Point::from);
-    let reading = prop_oneof![1 => Just(0.0_f32), 6 => 0.1..1.5_f32, 1 => 2.0..4.0_f32];
+    let none = prop_oneof![5 => Just(0.0), 1 => Just(f32::NAN), 1 => Just(f32::INFINITY), 1 => Just(-1.0)];
+    let reading = prop_oneof![1 => none, 6 => 0.1..1.5_f32, 1 => 2.0..4.0_f32];
     (eye(), target, prop::collection::vec(reading, 35))
         .prop_map(|(eye, target, metres)| observation(look_at(eye, target), 7, metres))
 }
@@ -85,21 +86,48 @@ fn readings(o: &Observation) -> Vec<Point> {
     pixels.filter_map(|(u, v)| o.point(u, v)).collect()
 }
 
-/// State of every voxel after one frame, voxel by voxel.
+/// OctoMap's precision.
+fn rounded(p: Point) -> Point {
+    p.map(|c| f64::from(c as f32))
+}
+
+/// State of every voxel after one frame, voxel by voxel: a ray goes to the centre
+/// of each voxel with a reading.
 fn naive_frame(map: &Map, o: &Observation) -> Vec<Occupancy> {
-    let points = readings(o);
-    let ends: BTreeSet<_> = points.iter().filter_map(|p| map.grid().containing(p)).collect();
+    let grid = map.grid();
+    let ends: BTreeSet<_> = readings(o).iter().map(|p| grid.cell_of(p)).collect();
+    let centre = |cell: &[i64; 3]| Point::from([0, 1, 2].map(|k| grid.origin[k] + (cell[k] as f64 + 0.5) * VOXEL));
+    let rays: Vec<_> = ends.iter().map(|end| rounded(centre(end))).collect();
+    let eye = rounded(o.eye());
     let state = |v: Voxel| {
-        let cube = cube(map, v);
-        if ends.contains(&v) {
+        let (here, cube) = (grid.cell(v), cube(map, v));
+        if ends.contains(&here) {
             Occupancy::Occupied
-        } else if points.iter().any(|p| passes(&o.eye(), p, &cube)) {
+        } else if rays.iter().any(|end| passes(&eye, end, &cube)) {
             Occupancy::Free
         } else {
             Occupancy::Unknown
         }
     };
     voxels(map).map(state).collect()
+}
+
+/// How a centre lies to the reading of its pixel; `None` where rounding decides.
+fn naively_before(o: &Observation, centre: &Point) -> Option<bool> {
+    let p = o.world_from_camera.inverse_transform_point(centre);
+    let k = &o.camera.depth;
+    let (u, v) = (k.fx * p.x / p.z + k.cx, k.fy * p.y / p.z + k.cy);
+    let near = |x: f64, border: f64| (x - border).abs() < 2e-3;
+    if p.z.abs() < 1e-4 || (p.z > 0.0 && (near(u, u.round()) || near(v, v.round()))) {
+        return None;
+    }
+    let Some((u, v)) = k.project(&p) else {
+        return Some(false);
+    };
+    let Some(z) = o.depth.at(u as u32, v as u32) else {
+        return Some(false);
+    };
+    (!near(p.z, z)).then_some(p.z < z)
 }
 
 fn states(map: &Map) -> Vec<Occupancy> {
@@ -145,16 +173,45 @@ proptest! {
     }
 
     #[test]
+    fn a_projected_frame_frees_the_voxels_whose_centres_are_seen(o in frame(), fine in prop::bool::ANY) {
+        let voxel = if fine { VOXEL / 4.0 } else { VOXEL };
+        let new_map = || Map::new(&Space { voxel, ..space() }, SensorModel::default()).unwrap();
+        let (mut map, mut exact) = (new_map(), new_map());
+        prop_assert_eq!(map.insert_projected(&o), exact.insert(&o));
+        prop_assert_eq!(map.occupied(), exact.occupied());
+        for v in voxels(&map).filter(|&v| map.occupancy(v) != Occupancy::Occupied) {
+            if let Some(free) = naively_before(&o, &map.grid().centre(v)) {
+                prop_assert_eq!(map.occupancy(v) == Occupancy::Free, free, "{:?}", map.grid().cell(v));
+            }
+        }
+    }
+
+    #[test]
+    fn a_cloud_is_inserted_as_the_depth_image_that_it_comes_from(frames in prop::collection::vec(frame(), 1..3)) {
+        let (mut of_images, mut of_clouds) = (new_map(), new_map());
+        for o in &frames {
+            prop_assert_eq!(of_images.insert(o), of_clouds.insert_cloud(&o.eye(), &readings(o)));
+        }
+        prop_assert_eq!(states(&of_images), states(&of_clouds));
+        let mut alone = new_map().of_occupancy_alone();
+        frames.iter().for_each(|o| { alone.insert(o); });
+        prop_assert_eq!(states(&of_images), states(&alone));
+        prop_assert!(alone.points().is_empty() && alone.rear_side().is_empty());
+    }
+
+    #[test]
     fn threads_do_not_change_a_map(frames in prop::collection::vec(frame(), 1..4)) {
-        let built = |threads| {
+        let built = |threads, insert: fn(&mut Map, &Observation) -> usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let mut map = new_map();
-            pool.install(|| frames.iter().for_each(|o| { map.insert(o); }));
+            pool.install(|| frames.iter().for_each(|o| { insert(&mut map, o); }));
             map
         };
-        let (one, two) = (built(1), built(2));
-        prop_assert!(one == two);
-        prop_assert_eq!(one.points(), two.points());
+        for insert in [Map::insert, Map::insert_projected] {
+            let (one, three) = (built(1, insert), built(3, insert));
+            prop_assert!(one == three);
+            prop_assert_eq!(one.points(), three.points());
+        }
     }
 
     #[test]
@@ -187,7 +244,7 @@ proptest! {
     fn sight_lines_meet_what_the_segment_against_every_cube_does(
         map in world(), eye in eye(), tolerance in prop_oneof![Just(0.0), 0.0..0.2_f64], from in 0..64_u32,
     ) {
-        let sight = map.visibility().from(&eye, tolerance);
+        let sight = map.visibility().from(&eye);
         let occupied = map.occupied();
         let some = voxels(&map).skip(from as usize).step_by(map.grid().len() as usize / 250);
         // Behind every occupied voxel, where lines are met.
@@ -196,7 +253,7 @@ proptest! {
             map.grid().containing(&(centre + (centre - eye) * 0.1))
         });
         for v in some.chain(behind) {
-            prop_assert_eq!(sight.sees(v), naively_visible(&map, &occupied, &eye, v, tolerance), "{:?}", v);
+            prop_assert_eq!(sight.sees(v, tolerance), naively_visible(&map, &occupied, &eye, v, tolerance), "{:?}", v);
         }
     }
 
@@ -406,7 +463,15 @@ fn unusable_observations_change_nothing() {
     assert_eq!(map.insert(&o), 0);
     o.depth.metres = vec![1.0];
     o.world_from_camera.translation = Translation3::new(f64::NAN, 0.0, f64::INFINITY);
-    assert_eq!(map.insert(&o), 0);
+    assert_eq!((map.insert(&o), map.insert_projected(&o)), (0, 0));
+    let beyond = [f64::INFINITY, f64::NAN, 1e300].map(|x| Point::new(x, 0.0, 0.0));
+    assert_eq!(map.insert_cloud(&Point::new(1.0, 0.0, 0.0), &beyond), 0);
+    assert_eq!(map.insert_cloud(&beyond[2], &[Point::origin()]), 0);
+    let mut o = one_ray(Point::new(1.0, 0.0, 0.0), Point::origin());
+    for (width, height, metres) in [(0, 0, vec![]), (7, 3, vec![0.0; 5]), (1, 1, vec![f32::INFINITY])] {
+        o.depth = DepthImage { width, height, metres };
+        map.insert_projected(&o);
+    }
     assert_eq!(map.counts().unknown, 1728);
     assert_eq!(map.occupancy(Voxel(u32::MAX)), Occupancy::Unknown);
     assert!(map.tags(Voxel(u32::MAX)).is_empty());

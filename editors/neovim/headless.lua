@@ -50,15 +50,16 @@ local function run()
   local before = vim.api.nvim_buf_get_lines(0, 0, -1, false)
   vim.fn.search('\\Vgoal ')
   vim.api.nvim_set_current_line('  goal confidnt')
+  local errors = { severity = vim.diagnostic.severity.ERROR }
   wait('it is found', function()
-    return #vim.diagnostic.get(0) > 0
+    return #vim.diagnostic.get(0, errors) > 0
   end)
-  for _, found in ipairs(vim.diagnostic.get(0)) do
+  for _, found in ipairs(vim.diagnostic.get(0, errors)) do
     say(('  %d:%d %s %s'):format(found.lnum + 1, found.col + 1, found.code or '', found.message:gsub('\n', ' / ')))
   end
   vim.api.nvim_buf_set_lines(0, 0, -1, false, before)
   wait('it is gone', function()
-    return #vim.diagnostic.get(0, { severity = vim.diagnostic.severity.ERROR }) == 0
+    return #vim.diagnostic.get(0, errors) == 0
   end)
 
   say('\n-- hover on `hull` of the first object')
@@ -96,7 +97,7 @@ local function run()
   say('  ' .. all .. ' occurrences')
   expect('none is left', count('code') == 0 and count('print') == all)
   wait('the renamed program has no errors', function()
-    return #vim.diagnostic.get(0, { severity = vim.diagnostic.severity.ERROR }) == 0
+    return #vim.diagnostic.get(0, errors) == 0
   end)
 
   say('\n-- formatting')

@@ -6,9 +6,12 @@ mod completions;
 mod explain;
 mod files;
 mod fmt;
+mod inspect;
 mod lsp;
 mod new;
+mod output;
 mod plan;
+mod recording;
 mod study;
 mod test;
 mod why;
@@ -40,6 +43,7 @@ enum Verb {
     Fmt(fmt::Fmt),
     Lsp(lsp::Lsp),
     Plan(Box<plan::Plan>),
+    Inspect(inspect::Inspect),
     Study(study::Study),
     Test(test::Test),
     Why(why::Why),
@@ -72,6 +76,12 @@ pub(crate) enum Failure {
     /// A layout would not have been the same program.
     #[error("error[{code}]: {0} is left as it is: laid out it would be another program", code = Code::E0604)]
     Layout(String),
+    /// Recorded frames cannot be used.
+    #[error("error[{code}]: {0}", code = Code::E0611)]
+    Recording(String),
+    /// A file is no OctoMap tree.
+    #[error("error[{code}]: {0} cannot be read as an OctoMap file: {1}", code = Code::E0612)]
+    OctoMap(String, String),
     /// A folder holds something else than the study's rows.
     #[error("error[{code}]: {0}", code = Code::E0605)]
     Folder(String),
@@ -116,6 +126,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Verb::Fmt(fmt) => fmt::run(&fmt),
         Verb::Lsp(lsp) => lsp::run(&lsp),
         Verb::Plan(plan) => plan::run(&plan),
+        Verb::Inspect(inspect) => inspect::run(&inspect),
         Verb::Study(study) => study::run(&study),
         Verb::Test(test) => test::run(&test),
         Verb::Why(why) => why::run(&why),

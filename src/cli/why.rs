@@ -119,16 +119,12 @@ fn written(run: &Run, rule: &str, log: &Path) -> Written {
     let compiled = lang::compile(&path.to_string_lossy(), &Disk);
     let sources = &compiled.sources;
     match &compiled.rules {
-        Some(rules) if rules.digest() == run.start.rules => {
-            Written::of(rules, &run.start.task, rule, |place: Place| {
-                let file = sources.get(lang::FileId(place.file))?;
-                let text = block(&file.text, place.start as usize);
-                Some((file.display.clone(), text.to_owned()))
-            })
-        }
-        _ => Written::Gone(format!(
-            "`{file}` has changed since the run, or vpl has: its compiled rules differ, so the rule's text is not shown"
-        )),
+        Some(rules) => Written::of(rules, &run.start, rule, |place: Place| {
+            let file = sources.get(lang::FileId(place.file))?;
+            let text = block(&file.text, place.start as usize);
+            Some((file.display.clone(), text.to_owned()))
+        }),
+        None => Written::Gone(format!("`{file}` no longer compiles, so the rule's text is not shown")),
     }
 }
 
@@ -138,7 +134,7 @@ fn unknown(unknown: Unknown) -> Failure {
             let near = lang::closest(&name, known.iter().map(String::as_str));
             let help = match near {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => "name a rule (`r4`), a feature, a class, an instance's key, or `view N`".to_owned(),
+                None => "name a rule (`r4`), a feature, a class, an instance's key as `vpl why RUN FEATURE` lists it (`1`, `bottom.1/edge.2`), or `view N`".to_owned(),
             };
             Failure::Subject(format!("the run knows no `{name}`; it has {has}\n  help: {help}"))
         }

@@ -53,7 +53,8 @@ impl Measurement {
         !same
     }
 
-    fn faces(&self) -> Vec<Polygon> {
+    /// Its faces; of a marker the square of modules.
+    pub fn faces(&self) -> Vec<Polygon> {
         match self {
             Self::Face(polygon) => vec![polygon.clone()],
             Self::Shell(faces) => faces.clone(),

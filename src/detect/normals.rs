@@ -3,6 +3,8 @@
 //! Over a plane, inverse depth is linear in image coordinates, so a linear fit
 //! in a small window gives normal and distance without an eigenproblem.
 
+use rayon::prelude::*;
+
 use super::cloud::Cloud;
 use super::plane_fit::Plane;
 use crate::geometry::Vector;
@@ -27,29 +29,61 @@ pub struct LocalPlane {
 
 /// Local planes of the pixels that `wanted` names, from such pixels alone.
 pub fn local_planes(cloud: &Cloud, wanted: &[bool], radius: usize) -> Vec<Option<LocalPlane>> {
-    (0..wanted.len())
-        .map(|pixel| {
-            wanted[pixel]
-                .then(|| local_plane(cloud, wanted, pixel, radius))
-                .flatten()
-        })
+    let inverse: Vec<f64> = cloud.depths.iter().map(|depth| 1.0 / depth).collect();
+    let windows = Windows {
+        cloud,
+        wanted,
+        inverse: &inverse,
+        radius,
+    };
+    let planes = (0..wanted.len()).into_par_iter().with_min_len(AT_ONCE);
+    planes
+        .map(|pixel| wanted[pixel].then(|| windows.plane(pixel)).flatten())
         .collect()
 }
 
-fn local_plane(cloud: &Cloud, wanted: &[bool], pixel: usize, radius: usize) -> Option<LocalPlane> {
-    let k = &cloud.intrinsics;
-    let z = cloud.depths[pixel];
-    let jump = z / k.fx * radius as f64 * STEEPEST;
-    let (x, y) = cloud.place(pixel);
-    let mut sums = Sums::default();
-    for other in cloud.square(pixel, radius) {
-        let depth = cloud.depths[other];
-        if wanted[other] && (depth - z).abs() <= jump {
-            let (u, v) = cloud.place(other);
-            sums.add(u as f64 - x as f64, v as f64 - y as f64, 1.0 / depth);
+/// Pixels worth a thread.
+const AT_ONCE: usize = 2_048;
+
+/// The windows about an image's pixels.
+struct Windows<'a> {
+    cloud: &'a Cloud,
+    wanted: &'a [bool],
+    /// 1 / depth of each pixel.
+    inverse: &'a [f64],
+    radius: usize,
+}
+
+impl Windows<'_> {
+    /// The sums over a pixel's window: what is wanted there and no jump away.
+    fn sums(&self, pixel: usize) -> Sums {
+        let (cloud, radius) = (self.cloud, self.radius);
+        let z = cloud.depths[pixel];
+        let jump = z / cloud.intrinsics.fx * radius as f64 * STEEPEST;
+        let (x, y) = cloud.place(pixel);
+        let columns = x.saturating_sub(radius)..(x + radius + 1).min(cloud.width);
+        let mut sums = Sums::default();
+        for v in y.saturating_sub(radius)..(y + radius + 1).min(cloud.height) {
+            let row = v * cloud.width;
+            for u in columns.clone() {
+                let other = row + u;
+                if self.wanted[other] && (cloud.depths[other] - z).abs() <= jump {
+                    sums.add(u as f64 - x as f64, v as f64 - y as f64, self.inverse[other]);
+                }
+            }
         }
+        sums
     }
-    let (per_u, per_v, here, rms) = sums.solve()?;
+
+    fn plane(&self, pixel: usize) -> Option<LocalPlane> {
+        let (per_u, per_v, here, rms) = self.sums(pixel).solve()?;
+        Some(plane_of(self.cloud, pixel, (per_u, per_v, here), rms))
+    }
+}
+
+/// The plane over which 1/z has these slopes and this value at a pixel.
+fn plane_of(cloud: &Cloud, pixel: usize, (per_u, per_v, here): (f64, f64, f64), rms: f64) -> LocalPlane {
+    let (k, z) = (&cloud.intrinsics, cloud.depths[pixel]);
     // 1/z = A x + B y + C over the plane A X + B Y + C Z = 1.
     let (a, b) = (per_u * k.fx, per_v * k.fy);
     let ray = cloud.ray(pixel, 0.5, 0.5);
@@ -61,10 +95,10 @@ fn local_plane(cloud: &Cloud, wanted: &[bool], pixel: usize, radius: usize) -> O
         normal: -inward,
         offset: -inward.dot(&eye.coords) - 1.0 / length,
     };
-    Some(LocalPlane {
+    LocalPlane {
         plane,
         rms: rms * z / length,
-    })
+    }
 }
 
 /// Normal equations of q = per_u · u + per_v · v + here.

@@ -59,8 +59,9 @@ impl Scan {
 fn colours(cloud: &Cloud, observation: &Observation) -> Vec<Option<[u8; 3]>> {
     let k = &observation.camera.colour;
     let colour_at = |pixel: usize| {
-        let (u, v) = k.project(&cloud.ray(pixel, 0.5, 0.5).into())?;
-        cloud.holds(pixel).then(|| observation.colour.at(u as u32, v as u32))
+        let ray = cloud.holds(pixel).then(|| cloud.ray(pixel, 0.5, 0.5))?;
+        let (u, v) = k.project(&ray.into())?;
+        Some(observation.colour.at(u as u32, v as u32))
     };
     (0..cloud.points.len()).map(colour_at).collect()
 }

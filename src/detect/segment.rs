@@ -6,6 +6,8 @@
 
 use std::collections::VecDeque;
 
+use rayon::prelude::*;
+
 use super::cloud::Cloud;
 use super::normals::{LocalPlane, RADIUS, WIDE_RADIUS, local_planes};
 use super::plane_fit::{Moments, Plane, robust_plane};
@@ -38,6 +40,8 @@ const FRAYED: f64 = 2.0;
 const SLIVER: f64 = 0.8;
 /// Sweeps that hand border pixels to the plane they fit best.
 const SWEEPS: usize = 12;
+/// Pixels worth a thread.
+const AT_ONCE: usize = 2_048;
 /// Sweeps after which the planes are fitted again.
 const SWEEPS_A_FIT: usize = 4;
 
@@ -161,7 +165,8 @@ impl<'a> Growth<'a> {
             if sweep % SWEEPS_A_FIT == 0 {
                 self.refit();
             }
-            let next: Vec<u32> = (0..self.labels.len()).map(|p| self.best_label(p)).collect();
+            let pixels = (0..self.labels.len()).into_par_iter().with_min_len(AT_ONCE);
+            let next: Vec<u32> = pixels.map(|p| self.best_label(p)).collect();
             if next == self.labels {
                 break;
             }

@@ -1,11 +1,13 @@
 //! Expectations, held against what follows from a fact's evidence.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::words::{bits, features, listed, metres, percent};
 use super::{Concluded, Failure, compare, values};
 use crate::geometry::Polygon;
 use crate::plan::completion;
-use crate::plan::features::{Existence, FeatureStatus};
-use crate::rules::{Expected, Fact, FeatureId, Flag, State};
+use crate::plan::features::{Existence, FeatureStatus, Predicted};
+use crate::rules::{Expected, Fact, FeatureId, FeatureKind, Flag, State};
 
 /// Features whose weights differ by less are equal, bits.
 const SAME_WEIGHT: f64 = 1e-9;
@@ -231,12 +233,20 @@ impl Concluded {
                     metres(within),
                     metres(distance)
                 );
-                Some(Miss(message, Some(format!("the nearest is {}", values::face(face)))))
+                let place = match self.knowledge.library.feature(feature).kind {
+                    FeatureKind::Marker => values::print(face),
+                    _ => values::face(face),
+                };
+                Some(Miss(message, Some(format!("the nearest is `{place}`"))))
             }
             None => {
                 let found = match predicted.len() {
                     0 => "none".to_owned(),
-                    n => format!("{n} with another number of corners"),
+                    n => format!(
+                        "{n} of {}, and this has {}",
+                        corners(predicted),
+                        expected.vertices().len()
+                    ),
                 };
                 let message = format!("expected a predicted `{name}` at this place, found {found}");
                 Some(self.with_reason(Miss(message, None), feature))
@@ -267,6 +277,14 @@ impl Concluded {
         };
         Miss(message, why.or(help))
     }
+}
+
+/// How many corners the predicted faces have: `4 corners`, `3 or 4 corners`.
+fn corners(predicted: &BTreeMap<String, Predicted>) -> String {
+    let faces = predicted.values().flat_map(|p| &p.polygons);
+    let counts: BTreeSet<usize> = faces.map(|face| face.vertices().len()).collect();
+    let counts: Vec<String> = counts.iter().map(usize::to_string).collect();
+    format!("{} corners", counts.join(" or "))
 }
 
 fn off(found: f64, expected: f64, within: f64) -> bool {

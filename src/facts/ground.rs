@@ -1,7 +1,10 @@
 //! The task that a library is tried with: thresholds and space for its facts.
 
 use crate::geometry::{Bounds, Camera, DepthRange, Intrinsics, Point, Vector};
-use crate::rules::{Call, Fact, Given, Goal, Inspected, Library, Place, RuleSet, SensorModel, Space, Task, Thresholds};
+use crate::rules::{
+    Call, Fact, Given, Goal, Insertion, Inspected, Library, Place, RuleSet, SensorModel, Space, Task, Thresholds,
+    Visibility,
+};
 
 /// ξ, ξ_ned and ξ_cfd where no task says: the paper's.
 const USUAL: Thresholds = Thresholds {
@@ -66,6 +69,8 @@ fn usual(library: &Library, space: Space) -> Task {
         limit: 1,
         gain_floor: 1,
         inspected: Inspected::Observed,
+        insertion: Insertion::default(),
+        visibility: Visibility::Exact,
         verify: false,
         sensor_model: SensorModel::default(),
         place: Place::default(),

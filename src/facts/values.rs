@@ -1,7 +1,7 @@
 //! What the expressions of facts stand for, and how that is said.
 
 use super::words::{degrees, metres, number, percent};
-use crate::geometry::{Camera, Edge, Intrinsics, Point, Polygon, Pose, Vector};
+use crate::geometry::{Camera, Edge, Intrinsics, Point, Polygon, Pose, Vector, axis_word};
 use crate::plan::{constant, constant_arguments};
 use crate::predict;
 use crate::primitives::{self, Datum, Type};
@@ -116,6 +116,16 @@ pub(super) fn face(face: &Polygon) -> String {
     format!("polygon([{}{more}])", corners.join(", "))
 }
 
+/// A print by its place, as facts write it.
+pub(super) fn print(face: &Polygon) -> String {
+    format!("at {} facing {}", point(&face.centre()), direction(&face.normal()))
+}
+
+fn direction(v: &Vector) -> String {
+    let numbers = || format!("[{}, {}, {}]", number(v.x), number(v.y), number(v.z));
+    axis_word(v).map_or_else(numbers, str::to_owned)
+}
+
 fn point(p: &Point) -> String {
     format!("[{}, {}, {}]", metres(p.x), metres(p.y), metres(p.z))
 }
@@ -130,7 +140,7 @@ fn constant_in_words(value: &Value) -> String {
         Value::Count(n) => n.to_string(),
         Value::Colour(colour) => colour.to_string(),
         Value::Text(text) => format!("\"{text}\""),
-        Value::Direction(v) => format!("[{}, {}, {}]", number(v.x), number(v.y), number(v.z)),
+        Value::Direction(v) => direction(v),
         Value::Point(p) => point(p),
         Value::Pose(pose) => format!("a pose at {}", point(&pose.translation.vector.into())),
         Value::Choice(word) => word.clone(),

@@ -44,6 +44,13 @@ pub fn frame_facing(origin: Point, facing: Vector) -> Pose {
     pose_of_axes(origin, right, up, out)
 }
 
+/// The word for a direction along an axis: `+x`, `-z`.
+pub fn axis_word(direction: &Vector) -> Option<&'static str> {
+    const WORDS: [[&str; 2]; 3] = [["+x", "-x"], ["+y", "-y"], ["+z", "-z"]];
+    let axis = direction.iter().position(|c| c.abs() > 1.0 - 1e-6)?;
+    Some(WORDS[axis][usize::from(direction[axis] < 0.0)])
+}
+
 /// The pose whose rotation has the given orthonormal, right-handed columns.
 fn pose_of_axes(origin: Point, x: Vector, y: Vector, z: Vector) -> Pose {
     let rotation = Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, y, z]));

@@ -11,5 +11,5 @@ pub mod polygon;
 
 pub use bounds::Bounds;
 pub use camera::{Camera, DepthRange, Intrinsics};
-pub use frame::{Point, Pose, Rotation, Vector, frame_facing, look_at};
+pub use frame::{Point, Pose, Rotation, Vector, axis_word, frame_facing, look_at};
 pub use polygon::{Edge, Polygon};

@@ -179,8 +179,16 @@ const WORDS: &[(&str, &str)] = &[
         "What counts as evidence about a predicted place: `observed`, or `near_point` alone.",
     ),
     (
+        "visibility",
+        "What hides a voxel: `exact` sight lines, or what is drawn at its `centre`, faster and coarser.",
+    ),
+    (
         "verify",
         "`all`: confident only when every predicted feature of the winning class was inspected.",
+    ),
+    (
+        "insertion",
+        "How measurements enter the map: `exact` along rays, or `projective`, by the pixel that a voxel falls on.",
     ),
     ("sensor_model", "What a reading says about a voxel, as probabilities."),
     ("backdrop", "What stands behind the objects: `sphere(…)`, or `none`."),
@@ -200,6 +208,18 @@ const CHOICES: &[(&str, &str)] = &[
     (
         "near_point",
         "A point was measured near the place; one that turns out empty is never ruled out.",
+    ),
+    (
+        "exact",
+        "`insertion`: a ray goes to every voxel with a point and frees those before it, as OctoMap does. `visibility`: an occupied voxel on the line to the eye hides.",
+    ),
+    (
+        "projective",
+        "Free is what lies in front of the reading of its pixel: several times faster where voxels are small, without slivers along silhouettes.",
+    ),
+    (
+        "centre",
+        "A voxel is hidden where an occupied one is drawn nearer at its centre; errs towards hidden.",
     ),
     ("all", "Every predicted feature of the winning class."),
 ];
@@ -224,7 +244,7 @@ mod tests {
             let fields = vocabulary::fields(statement);
             assert!(fields.iter().all(|(f, _)| field(statement, f).is_some()), "{statement}");
         }
-        for statement in ["goal", "inspected", "verify"] {
+        for statement in ["goal", "inspected", "visibility", "verify", "insertion"] {
             assert!(
                 vocabulary::words(statement).iter().all(|w| word(w).is_some()),
                 "{statement}"

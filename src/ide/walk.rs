@@ -122,7 +122,13 @@ fn in_statement<'t>(kind: &'t Kind, see: &mut impl FnMut(&'t Expr)) {
             .into_iter()
             .for_each(|e| inside(e, see)),
         Kind::Thresholds(fields) | Kind::SensorModel(fields) => fields.iter().for_each(|f| inside(&f.value, see)),
-        Kind::Library(_) | Kind::Goal(_) | Kind::Method(_) | Kind::Inspected(_) | Kind::Verify(_) => {}
+        Kind::Library(_)
+        | Kind::Goal(_)
+        | Kind::Method(_)
+        | Kind::Inspected(_)
+        | Kind::Visibility(_)
+        | Kind::Verify(_)
+        | Kind::Insertion(_) => {}
     }
 }
 

@@ -72,10 +72,12 @@ pub fn fields(statement: &str) -> &'static [(&'static str, Type)] {
 pub fn words(statement: &str) -> &'static [&'static str] {
     match statement {
         "goal" => task::GOALS,
-        "method" | "methods" => task::METHODS,
+        "method" | "methods" => crate::rules::METHODS,
         "noise" => studies::NOISES,
         "inspected" => task::INSPECTED,
+        "visibility" => task::VISIBILITY,
         "verify" => task::VERIFY,
+        "insertion" => task::INSERTION,
         _ => &[],
     }
 }

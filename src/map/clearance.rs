@@ -3,8 +3,9 @@
 //!
 //! Frozen at one state of the map; covers the box of occupied blocks only.
 
-use super::bricks::Bricks;
+use super::bricks::{Bricks, States};
 use super::layout::{Address, Layout, VOXELS};
+use super::log_odds::LogOdds;
 
 /// Entries below this are distances; from here on they index words.
 const FIRST_WORD: u32 = 256;
@@ -29,6 +30,8 @@ pub(super) struct Clearance {
     strides: [usize; 3],
     entries: Vec<u32>,
     words: Vec<u64>,
+    /// Of each word, the first cell of its block.
+    corners: Vec<[i32; 3]>,
 }
 
 /// One axis of the box of occupied blocks; reversed, cell c is −1 − c.
@@ -53,8 +56,8 @@ impl Axis {
 
 impl Clearance {
     /// The clearance of a map's bricks.
-    pub fn of(layout: &Layout, bricks: &Bricks) -> Self {
-        let words = occupied_words(layout, bricks);
+    pub fn of(layout: &Layout, bricks: &Bricks, model: &LogOdds) -> Self {
+        let words = occupied_words(layout, bricks, model);
         let Some((low, size)) = block_box(&words) else {
             return Self::default();
         };
@@ -65,6 +68,7 @@ impl Clearance {
             strides: [1, padded[0], padded[0] * padded[1]],
             entries: vec![FIRST_WORD - 1; padded.iter().product()],
             words: words.iter().map(|w| w.1).collect(),
+            corners: words.iter().map(|w| w.0.map(|b| b * 4)).collect(),
         };
         let places: Vec<_> = words.iter().map(|w| clearance.place(w.0.map(|b| b * 4))).collect();
         clearance.spread_from(&places, size);
@@ -77,6 +81,16 @@ impl Clearance {
     /// Whether nothing is occupied.
     pub fn is_empty(&self) -> bool {
         self.words.is_empty()
+    }
+
+    /// First cell and extents, in cells, of the box of occupied blocks.
+    pub fn extent(&self) -> ([i32; 3], [i32; 3]) {
+        (self.low, [0, 1, 2].map(|k| self.high[k] - self.low[k]))
+    }
+
+    /// The blocks with occupied voxels: first cell and bits.
+    pub fn occupied(&self) -> impl Iterator<Item = ([i32; 3], u64)> {
+        self.corners.iter().copied().zip(self.words.iter().copied())
     }
 
     /// The block at a place: the sum of its places along the axes.
@@ -162,15 +176,15 @@ impl Clearance {
 }
 
 /// Blocks with occupied voxels and their bits.
-fn occupied_words(layout: &Layout, bricks: &Bricks) -> Vec<([i32; 3], u64)> {
-    let of_brick = |brick: &super::brick::Brick| {
+fn occupied_words(layout: &Layout, bricks: &Bricks, model: &LogOdds) -> Vec<([i32; 3], u64)> {
+    let of_brick = |brick: States| {
         let words = brick.occupied.into_iter().enumerate().filter(|w| w.1 != 0);
         let base = brick.index * VOXELS;
         words
             .map(move |(i, word)| (Address(base + i * 64), word))
             .collect::<Vec<_>>()
     };
-    let words = bricks.iter().flat_map(of_brick);
+    let words = bricks.states(model).flat_map(of_brick);
     words
         .map(|(at, word)| (layout.cell(at).map(|c| c as i32 / 4), word))
         .collect()

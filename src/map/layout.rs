@@ -12,6 +12,9 @@ pub(super) const VOXELS: usize = 64 * WORDS;
 /// One bit a voxel of a brick.
 pub(super) type Bits = [u64; WORDS];
 
+/// The bits that each axis has in the index of a voxel in its brick.
+pub(super) const AXES: [u32; 3] = [0b0_0100_0011, 0b0_1000_1100, 0b1_0011_0000];
+
 /// Place of a voxel in the storage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Address(pub usize);
@@ -45,6 +48,8 @@ pub(super) struct Layout {
     grid: Grid,
     /// Bricks along x, y and z; the last ones may reach beyond the grid.
     pub bricks: [usize; 3],
+    /// Between the indices of neighbouring bricks.
+    pub strides: [usize; 3],
     terms: [Vec<usize>; 3],
 }
 
@@ -55,7 +60,17 @@ impl Layout {
         let strides = [1, bricks[0], bricks[0] * bricks[1]];
         let term = |k: usize, c: usize| (c / 8 * strides[k] * VOXELS) + ((c / 4 % 2) << (6 + k)) + ((c % 4) << (2 * k));
         let terms = [0, 1, 2].map(|k| (0..grid.size[k] as usize).map(|c| term(k, c)).collect());
-        Self { grid, bricks, terms }
+        Self {
+            grid,
+            bricks,
+            strides,
+            terms,
+        }
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
     }
 
     /// Number of bricks.
@@ -87,12 +102,42 @@ impl Layout {
         [brick % x, brick / x % y, brick / x / y].map(|c| c * 8)
     }
 
+    /// The voxels of a brick that lie in the grid.
+    pub fn inside(&self, brick: usize) -> Bits {
+        let corner = self.corner(brick);
+        let left = [0, 1, 2].map(|k| self.grid.size[k] as usize - corner[k]);
+        if left.iter().all(|&n| n >= 8) {
+            return [u64::MAX; WORDS];
+        }
+        let axis = |k: usize, upper: usize| AXIS[k][left[k].saturating_sub(4 * upper).min(4)];
+        std::array::from_fn(|w| axis(0, w & 1) & axis(1, w >> 1 & 1) & axis(2, w >> 2 & 1))
+    }
+
     /// The voxel at an address inside the grid.
     pub fn voxel(&self, address: Address) -> Voxel {
         let [x, y, z] = self.cell(address).map(|c| c as u32);
         Voxel((z * self.grid.size[1] + y) * self.grid.size[0] + x)
     }
 }
+
+/// Bits of a word whose coordinate along an axis is below 0, 1, … 4.
+const AXIS: [[u64; 5]; 3] = [
+    [
+        0,
+        0x1111_1111_1111_1111,
+        0x3333_3333_3333_3333,
+        0x7777_7777_7777_7777,
+        u64::MAX,
+    ],
+    [
+        0,
+        0x000f_000f_000f_000f,
+        0x00ff_00ff_00ff_00ff,
+        0x0fff_0fff_0fff_0fff,
+        u64::MAX,
+    ],
+    [0, 0xffff, 0xffff_ffff, 0xffff_ffff_ffff, u64::MAX],
+];
 
 /// Addresses of the set bits of a brick, ascending.
 pub(super) fn addresses(brick: usize, bits: &Bits) -> impl Iterator<Item = Address> + '_ {
@@ -125,6 +170,15 @@ mod tests {
         for (v, &a) in seen.iter().enumerate() {
             assert_eq!(layout.voxel(a), Voxel(v as u32));
             assert!(a.brick() < layout.len());
+        }
+        for brick in 0..layout.len() {
+            let inside = layout.inside(brick);
+            let listed = seen.iter().filter(|a| a.brick() == brick);
+            assert!(listed.clone().all(|a| inside[a.word()] & a.bit() != 0));
+            assert_eq!(
+                listed.count() as u32,
+                inside.iter().map(|w| w.count_ones()).sum::<u32>()
+            );
         }
         seen.sort_unstable();
         seen.dedup();

@@ -5,23 +5,47 @@
 //! among those at which both clamps fit ±127. With the shipped model a hit is
 //! +23, a miss −11 and the clamps are −54 and +95 (exact: 23.0, −11, −54.3,
 //! 95.2): hits and misses that outweigh each other do so as in OctoMap.
+//!
+//! A voxel's value is its log-odds plus 128 as a `u8`, which leaves 0 for a voxel
+//! that was never measured and orders values as log-odds; every processor has the
+//! saturating operations on unsigned bytes.
 
 use crate::rules::SensorModel;
+
+/// Value of a voxel that was never measured.
+pub(super) const UNKNOWN: u8 = 0;
+/// Value of log-odds 0.
+const EVEN: u8 = 128;
 
 /// A sensor model in units of `1 / scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LogOdds {
-    /// Added by a hit.
-    pub hit: i8,
-    /// Added by a miss.
-    pub miss: i8,
-    /// Lower clamp.
-    pub min: i8,
-    /// Upper clamp.
-    pub max: i8,
-    /// Occupied from here on.
-    pub occupied: i8,
+    hit: Change,
+    miss: Change,
+    /// Clamps, as values.
+    min: u8,
+    max: u8,
+    /// Occupied from this value on.
+    occupied: u8,
     scale: f64,
+}
+
+/// What a look adds and takes away; one of them is 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Change {
+    up: u8,
+    down: u8,
+}
+
+impl Change {
+    fn by(units: i8) -> Self {
+        let size = units.unsigned_abs();
+        if units > 0 {
+            Self { up: size, down: 0 }
+        } else {
+            Self { up: 0, down: size }
+        }
+    }
 }
 
 impl LogOdds {
@@ -35,25 +59,56 @@ impl LogOdds {
         let scale = best_scale(hit, miss, 127.0 / limit);
         let (low, high) = (clamps[0].min(clamps[1]), clamps[0].max(clamps[1]));
         Self {
-            hit: at_least_one(hit, scale),
-            miss: at_least_one(miss, scale),
-            min: units(low, scale),
-            max: units(high, scale),
-            occupied: units(logit(model.occupied), scale),
+            hit: Change::by(at_least_one(hit, scale)),
+            miss: Change::by(at_least_one(miss, scale)),
+            min: value(units(low, scale)),
+            max: value(units(high, scale)),
+            occupied: value(units(logit(model.occupied), scale)),
             scale,
         }
     }
 
-    /// Whether a voxel can become occupied by misses alone, which no sensible
-    /// model allows.
-    pub fn miss_can_occupy(&self) -> bool {
-        self.miss > 0 || self.miss.max(self.min) >= self.occupied
+    /// A value after a look: `hit` and `miss` are all ones for the one that it
+    /// was and 0 for the other. With neither, a clamped value of what was known.
+    #[inline(always)]
+    pub fn moved(&self, value: u8, hit: u8, miss: u8) -> u8 {
+        let known = if value == UNKNOWN { EVEN } else { value };
+        let up = (self.hit.up & hit) | (self.miss.up & miss);
+        let down = (self.hit.down & hit) | (self.miss.down & miss);
+        known
+            .saturating_add(up)
+            .saturating_sub(down)
+            .max(self.min)
+            .min(self.max)
     }
 
-    /// The probability that a value stands for.
-    pub fn probability(&self, value: i8) -> f64 {
-        1.0 / (1.0 + (-f64::from(value) / self.scale).exp())
+    /// A value after a miss.
+    #[inline(always)]
+    pub fn missed(&self, value: u8) -> u8 {
+        self.moved(value, 0, u8::MAX)
     }
+
+    /// The least value that is occupied.
+    #[inline(always)]
+    pub fn occupied_from(&self) -> u8 {
+        self.occupied
+    }
+
+    /// Whether a voxel of this value was measured and is occupied.
+    #[inline(always)]
+    pub fn is_occupied(&self, value: u8) -> bool {
+        value >= self.occupied
+    }
+
+    /// The probability that the value of a measured voxel stands for.
+    pub fn probability(&self, value: u8) -> f64 {
+        let units = f64::from(value) - f64::from(EVEN);
+        1.0 / (1.0 + (-units / self.scale).exp())
+    }
+}
+
+fn value(units: i8) -> u8 {
+    units.cast_unsigned() ^ EVEN
 }
 
 fn logit(p: f64) -> f64 {
@@ -94,9 +149,10 @@ mod tests {
     #[test]
     fn the_shipped_model_has_the_documented_units() {
         let m = LogOdds::quantised(&SensorModel::default());
-        assert_eq!((m.hit, m.miss, m.min, m.max, m.occupied), (23, -11, -54, 95, 0));
-        assert!((m.probability(m.hit) - 0.7).abs() < 1e-3);
-        assert!((m.probability(m.miss) - 0.4).abs() < 1e-3);
+        assert_eq!((m.hit, m.miss), (Change::by(23), Change::by(-11)));
+        assert_eq!([m.min, m.max, m.occupied], [-54, 95, 0].map(value));
+        assert!((m.probability(value(23)) - 0.7).abs() < 1e-3);
+        assert!((m.probability(value(-11)) - 0.4).abs() < 1e-3);
         assert!((m.probability(m.max) - 0.971).abs() < 1e-3);
     }
 
@@ -107,15 +163,13 @@ mod tests {
         let model = SensorModel::default();
         let m = LogOdds::quantised(&model);
         for looks in 0_u32..1 << 16 {
-            let (mut ours, mut exact) = (0_i8, 0.0_f64);
+            let (mut ours, mut exact) = (UNKNOWN, 0.0_f64);
             for i in 0..16 {
                 let hit = looks >> i & 1 == 1;
-                ours = ours
-                    .saturating_add(if hit { m.hit } else { m.miss })
-                    .clamp(m.min, m.max);
+                ours = if hit { m.moved(ours, u8::MAX, 0) } else { m.missed(ours) };
                 exact += logit(if hit { model.hit } else { model.miss });
                 exact = exact.clamp(logit(model.clamp_min), logit(model.clamp_max));
-                assert_eq!(ours >= m.occupied, exact >= 0.0, "look {i} of {looks:016b}");
+                assert_eq!(m.is_occupied(ours), exact >= 0.0, "look {i} of {looks:016b}");
             }
         }
     }
@@ -129,7 +183,7 @@ mod tests {
             clamp_max: 1.0,
             occupied: 0.5,
         });
-        assert_eq!((weak.hit, weak.miss), (1, -1));
+        assert_eq!((weak.hit, weak.miss), (Change::by(1), Change::by(-1)));
         let odd = LogOdds::quantised(&SensorModel {
             hit: f64::NAN,
             miss: 0.5,
@@ -137,6 +191,10 @@ mod tests {
             clamp_max: 0.5,
             occupied: 2.0,
         });
-        assert_eq!((odd.hit, odd.miss, odd.occupied), (0, 0, 127));
+        assert_eq!(
+            (odd.hit, odd.miss, odd.occupied),
+            (Change::by(0), Change::by(0), u8::MAX)
+        );
+        assert_eq!(odd.missed(UNKNOWN), EVEN, "a look that says nothing is still a look");
     }
 }

@@ -7,37 +7,60 @@
 
 mod brick;
 mod bricks;
+mod cell_projection;
+mod centre_view;
 mod clearance;
-mod frame;
+mod depth_window;
+mod every_ray;
 mod grid;
+mod keys;
 mod layout;
+mod line;
 mod log_odds;
-mod octomap_file;
+mod marks;
+pub mod octomap;
+mod planning;
 mod points;
+mod projection;
+mod pyramid;
+mod ray;
+mod ray_counts;
+mod rays;
+mod readings;
 mod rear_side;
+mod surface;
+mod table;
 mod tags;
+mod trace;
 mod visibility;
+mod voxel_set;
 mod walk;
 
+pub use centre_view::CentreView;
 pub use grid::{Grid, Voxel};
-pub use octomap_file::write_bt;
+pub use octomap::{OctoMap, write_bt, write_ot};
+pub use planning::{PlanningGrid, State};
+pub use ray_counts::{RayCounts, Seen};
+pub use rays::{Ray, image_rays};
 pub use tags::Tag;
 pub use visibility::{Sight, Visibility};
+pub use voxel_set::VoxelSet;
 
 use std::sync::OnceLock;
 
-use rayon::prelude::*;
-
-use crate::geometry::Point;
+use crate::geometry::{DepthRange, Intrinsics, Point, Pose};
 use crate::rules::{SensorModel, Space};
 use crate::sense::Observation;
-use brick::Brick;
+use brick::{Brick, is_known};
 use bricks::Bricks;
 use clearance::Clearance;
-use frame::Frame;
 use layout::{Bits, Layout, addresses};
 use log_odds::LogOdds;
+use marks::Marks;
+use projection::Projection;
+use readings::Readings;
 use tags::Tags;
+use trace::Trace;
 
 /// What the measurements say of a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,6 +95,8 @@ pub struct Map {
     model: LogOdds,
     bricks: Bricks,
     tags: Tags,
+    /// Whether points and seen sides of surfaces are kept.
+    surfaces: bool,
     /// Distances for sight lines, made on first use after a measurement.
     clearance: OnceLock<Clearance>,
 }
@@ -96,6 +121,7 @@ impl Map {
             layout,
             model: LogOdds::quantised(&model),
             tags: Tags::default(),
+            surfaces: true,
             clearance: OnceLock::new(),
         })
     }
@@ -105,44 +131,113 @@ impl Map {
         &self.grid
     }
 
-    /// Inserts a measurement: rays from the eye through every reading. Returns
-    /// the number of measured points inside the space.
-    ///
-    /// Every voxel that a ray passes before its end is missed, the one it ends
-    /// in is hit, each once a frame and hits first. A reading beyond the space
-    /// only misses; a pixel without one does nothing.
-    pub fn insert(&mut self, observation: &Observation) -> usize {
-        let frame = Frame::trace(&self.grid, &self.layout, observation);
-        self.bricks.make_all(|brick| frame.touches(brick));
-        let eye = observation.eye();
-        for reading in &frame.readings {
-            let centre = self.grid.centre(self.layout.voxel(reading.address));
-            let far = rear_side::far_faces(&eye, &centre);
-            let brick = self.bricks.make(reading.address.brick());
-            brick.hit(reading, far);
+    /// The same map, which keeps occupancy alone: no points are remembered and
+    /// no sides of surfaces, so that [`Map::points`] and [`Map::rear_side`] are
+    /// empty, and a measured voxel takes about a byte.
+    #[must_use]
+    pub fn of_occupancy_alone(self) -> Self {
+        Self {
+            surfaces: false,
+            ..self
         }
-        let model = self.model;
-        self.bricks
-            .par_iter_mut()
-            .for_each(|brick| brick.apply(frame.passed(brick.index), &model));
+    }
+
+    /// Inserts a measurement by exact rays: that of [`Map::insert_cloud`] with
+    /// the points of the depth image. A pixel without a reading does nothing.
+    pub fn insert(&mut self, observation: &Observation) -> usize {
+        let keep = self.surfaces;
+        self.insert_rays(&observation.eye(), |trace| readings::of_image(trace, observation, keep))
+    }
+
+    /// Inserts points measured from an eye, world axes. Returns the number of
+    /// points inside the space.
+    ///
+    /// Every voxel that holds a point is hit. A ray goes from the eye to the
+    /// centre of each, and misses the voxels before it that are not hit
+    /// themselves; each voxel changes once. The sets are those of OctoMap's
+    /// `insertPointCloud` with `discretize` (Hornung et al. 2013, version 1.9.7)
+    /// clipped to the space. A point beyond the space only misses; one that is not
+    /// finite does nothing, and neither does a cloud whose eye is not.
+    pub fn insert_cloud(&mut self, eye: &Point, points: &[Point]) -> usize {
+        let keep = self.surfaces;
+        self.insert_rays(eye, |trace| readings::of_cloud(trace, points, keep))
+    }
+
+    /// Inserts a measurement by a ray to every reading: hits are those of
+    /// [`Map::insert`], and every voxel that a ray passes before its end is missed.
+    /// The sets are those of OctoMap's `insertPointCloud` without `discretize`, and
+    /// there are as many rays as readings: for maps that are to be like OctoMap's.
+    pub fn insert_every_ray(&mut self, observation: &Observation) -> usize {
+        let marks = Marks::new(self.bricks.len());
+        let (eye, table) = (observation.eye(), self.bricks.table());
+        let trace = Trace::from(&self.layout, table, &marks, &eye, false);
+        let readings = trace.map_or_else(Readings::default, |trace| {
+            let readings = readings::of_image(&trace, observation, self.surfaces);
+            every_ray::miss(&self.layout, table, &marks, observation);
+            readings
+        });
+        self.conclude(marks, &eye, readings)
+    }
+
+    /// Inserts a depth image by projection: the voxels that hold points are hit,
+    /// and those whose centres lie nearer than the reading of the pixel that they
+    /// fall on are missed. Returns the number of points inside the space.
+    ///
+    /// Hits are those of [`Map::insert`]. Voxels are missed whose centre is seen,
+    /// not those that a ray to a reading grazes: slivers along silhouettes stay
+    /// unknown, and between rays that are farther apart than voxels none do. Time
+    /// follows the surface and not the volume.
+    pub fn insert_projected(&mut self, observation: &Observation) -> usize {
+        let marks = Marks::new(self.bricks.len());
+        let (eye, table) = (observation.eye(), self.bricks.table());
+        let trace = Trace::from(&self.layout, table, &marks, &eye, false);
+        let readings = trace.map_or_else(Readings::default, |trace| {
+            let readings = readings::of_image(&trace, observation, self.surfaces);
+            Projection::of(&self.layout, table, &marks, observation).carve();
+            readings
+        });
+        self.conclude(marks, &eye, readings)
+    }
+
+    fn insert_rays(&mut self, eye: &Point, read: impl FnOnce(&Trace) -> Readings) -> usize {
+        let marks = Marks::new(self.bricks.len());
+        let trace = Trace::from(&self.layout, self.bricks.table(), &marks, eye, true);
+        let readings = trace.map_or_else(Readings::default, |trace| {
+            let readings = read(&trace);
+            trace.rays();
+            readings
+        });
+        self.conclude(marks, eye, readings)
+    }
+
+    /// Applies the marks of a frame and keeps its readings.
+    fn conclude(&mut self, marks: Marks, eye: &Point, readings: Readings) -> usize {
+        self.bricks.apply(marks, &self.layout, &self.model);
+        for reading in &readings.kept {
+            let centre = self.grid.centre(self.layout.voxel(reading.address));
+            let far = rear_side::far_faces(eye, &centre);
+            if let Some(brick) = self.bricks.get_mut(reading.address.brick()) {
+                brick.surface.get_or_insert_default().keep(reading, far);
+            }
+        }
         self.clearance = OnceLock::new();
-        frame.readings.len()
+        readings.inside
     }
 
     /// State of a voxel by measurement alone.
     pub fn occupancy(&self, voxel: Voxel) -> Occupancy {
-        match self.layout.address_of(voxel) {
-            Some(at) if self.bricks.test(at, |b| &b.occupied) => Occupancy::Occupied,
-            Some(at) if self.bricks.test(at, |b| &b.known) => Occupancy::Free,
-            _ => Occupancy::Unknown,
+        let at = self.layout.address_of(voxel);
+        match at.map(|at| self.bricks.value(at)).filter(|&value| is_known(value)) {
+            None => Occupancy::Unknown,
+            Some(value) if self.model.is_occupied(value) => Occupancy::Occupied,
+            Some(_) => Occupancy::Free,
         }
     }
 
     /// P(occupied) of a voxel; `None` where it was never measured.
     pub fn probability(&self, voxel: Voxel) -> Option<f64> {
-        let at = self.layout.address_of(voxel)?;
-        let log_odds = self.bricks.get(at.brick())?.log_odds(at)?;
-        Some(self.model.probability(log_odds))
+        let value = self.bricks.value(self.layout.address_of(voxel)?);
+        is_known(value).then(|| self.model.probability(value))
     }
 
     /// Whether some measured point lies within `radius` metres of `p` (PC_t of
@@ -176,25 +271,19 @@ impl Map {
     /// that are unknown show as pre-occupied. Numbers outside the grid are
     /// passed over.
     pub fn tag(&mut self, tag: Tag, voxels: Vec<Voxel>) {
-        self.untag(tag);
         let voxels = voxels.into_iter().filter_map(|v| self.layout.address_of(v)).collect();
-        for (index, bits) in self.tags.set(tag, voxels) {
-            let brick = self.bricks.make(*index);
-            or_into(&mut brick.tagged, bits);
-        }
+        self.tags.set(tag, voxels);
     }
 
     /// Drops a tag.
     pub fn untag(&mut self, tag: Tag) {
-        for index in self.tags.drop(tag) {
-            self.bricks.make(index).tagged = self.tags.of_brick(index);
-        }
+        self.tags.drop(tag);
     }
 
     /// Whether a voxel is unknown and tagged.
     pub fn is_preoccupied(&self, voxel: Voxel) -> bool {
         let at = self.layout.address_of(voxel);
-        at.is_some_and(|at| self.bricks.test(at, |b| &b.tagged) && !self.bricks.test(at, |b| &b.known))
+        at.is_some_and(|at| self.tags.has(at) && !is_known(self.bricks.value(at)))
     }
 
     /// The tags of a voxel, ascending.
@@ -205,12 +294,19 @@ impl Map {
 
     /// Occupied voxels, ascending.
     pub fn occupied(&self) -> Vec<Voxel> {
-        self.voxels_where(|b| b.occupied)
+        let occupied = self.bricks.states(&self.model).map(|b| (b.index, b.occupied));
+        self.voxels(occupied)
+    }
+
+    /// Free and occupied voxels, ascending.
+    pub fn measured(&self) -> Vec<Voxel> {
+        let measured = self.bricks.states(&self.model).map(|b| (b.index, b.known));
+        self.voxels(measured)
     }
 
     /// Pre-occupied voxels, ascending.
     pub fn preoccupied(&self) -> Vec<Voxel> {
-        self.voxels_where(preoccupied)
+        self.voxels(self.preoccupied_bits())
     }
 
     /// Rear-side voxels, ascending: unknown, face-adjacent to an occupied voxel
@@ -223,20 +319,45 @@ impl Map {
     /// whose centre lies within `tolerance` metres of the centre of `voxel`
     /// does not hide it. Many questions of one eye: [`Map::visibility`].
     pub fn visible(&self, eye: &Point, voxel: Voxel, tolerance: f64) -> bool {
-        self.visibility().from(eye, tolerance).sees(voxel)
+        self.visibility().from(eye).sees(voxel, tolerance)
     }
 
     /// What can be seen of the space as it is now.
     pub fn visibility(&self) -> Visibility<'_> {
-        let clearance = self.clearance.get_or_init(|| Clearance::of(&self.layout, &self.bricks));
-        Visibility::new(self.grid, clearance)
+        Visibility::new(self.grid, self.clearance())
+    }
+
+    /// What a depth camera would see of the space as it is now, by the centres of
+    /// voxels.
+    pub fn centre_view(&self, image: &Intrinsics, range: DepthRange, world_from_camera: &Pose) -> CentreView {
+        CentreView::of(&self.grid, self.clearance(), image, range, world_from_camera)
+    }
+
+    fn clearance(&self) -> &Clearance {
+        self.clearance
+            .get_or_init(|| Clearance::of(&self.layout, &self.bricks, &self.model))
+    }
+
+    /// Unknown voxels, tagged or not.
+    pub fn unknown(&self) -> VoxelSet {
+        VoxelSet::of_bricks(
+            &self.layout,
+            (0..self.bricks.len()).map(|index| (index, self.unknown_bits(index))),
+        )
+    }
+
+    /// The states of all voxels as they are now, for rays: a byte a voxel.
+    pub fn planning_grid(&self) -> PlanningGrid {
+        PlanningGrid::of(&self.layout, &self.bricks, &self.model, &self.tags)
     }
 
     /// Voxels by state.
     pub fn counts(&self) -> Counts {
-        let total = |bits: fn(&Brick) -> Bits| self.bricks.iter().map(|b| count(&bits(b))).sum::<u64>();
-        let (known, occupied) = (total(|b| b.known), total(|b| b.occupied));
-        let preoccupied = total(preoccupied);
+        let states = self.bricks.states(&self.model);
+        let (known, occupied) = states.fold((0, 0), |(known, occupied), b| {
+            (known + count(&b.known), occupied + count(&b.occupied))
+        });
+        let preoccupied = self.preoccupied_bits().map(|b| count(&b.1)).sum::<u64>();
         Counts {
             unknown: u64::from(self.grid.len()) - known - preoccupied,
             free: known - occupied,
@@ -245,10 +366,35 @@ impl Map {
         }
     }
 
-    fn voxels_where(&self, bits: impl Fn(&Brick) -> Bits) -> Vec<Voxel> {
+    /// Bricks that a frame was measured in beside those of one value, and bytes
+    /// of the heap that the map takes.
+    pub fn memory(&self) -> (usize, usize) {
+        self.bricks.memory()
+    }
+
+    fn unknown_bits(&self, brick: usize) -> Bits {
+        let known = self
+            .bricks
+            .states_of(brick, &self.model)
+            .map_or([0; layout::WORDS], |b| b.known);
+        let inside = self.layout.inside(brick);
+        std::array::from_fn(|w| inside[w] & !known[w])
+    }
+
+    fn preoccupied_bits(&self) -> impl Iterator<Item = (usize, Bits)> {
+        self.tags.bricks().map(|(brick, tagged)| {
+            let known = self
+                .bricks
+                .states_of(brick, &self.model)
+                .map_or([0; layout::WORDS], |b| b.known);
+            (brick, std::array::from_fn(|w| tagged[w] & !known[w]))
+        })
+    }
+
+    fn voxels(&self, bricks: impl Iterator<Item = (usize, Bits)>) -> Vec<Voxel> {
         let mut voxels = Vec::new();
-        for brick in self.bricks.iter() {
-            voxels.extend(addresses(brick.index, &bits(brick)).map(|at| self.layout.voxel(at)));
+        for (index, bits) in bricks {
+            voxels.extend(addresses(index, &bits).map(|at| self.layout.voxel(at)));
         }
         voxels.sort_unstable();
         voxels
@@ -274,16 +420,6 @@ impl PartialEq for Map {
     }
 }
 
-fn preoccupied(brick: &Brick) -> Bits {
-    std::array::from_fn(|w| brick.tagged[w] & !brick.known[w])
-}
-
 fn count(bits: &Bits) -> u64 {
     bits.iter().map(|w| u64::from(w.count_ones())).sum()
-}
-
-fn or_into(bits: &mut Bits, more: &Bits) {
-    for (word, add) in bits.iter_mut().zip(more) {
-        *word |= add;
-    }
 }

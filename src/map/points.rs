@@ -54,6 +54,11 @@ impl Points {
         &self.points[usize::from(self.starts[word])..usize::from(self.starts[word + 1])]
     }
 
+    /// Bytes on the heap.
+    pub fn bytes(&self) -> usize {
+        self.points.capacity() * size_of::<Point>()
+    }
+
     /// The first measured point of every voxel that has one, by place.
     pub fn firsts(&self) -> impl Iterator<Item = (usize, Point)> {
         let measured = (0..VOXELS).filter(|&local| self.octants[local] != 0);

@@ -1,7 +1,7 @@
 //! Rear-side voxels (G_so of eq. 8): unknown space right behind a seen surface.
 
 use super::Map;
-use super::brick::Brick;
+use super::brick::{Brick, is_known};
 use super::grid::Voxel;
 use super::layout::addresses;
 use crate::geometry::{Point, Vector};
@@ -27,8 +27,10 @@ pub(super) fn rear_side(map: &Map) -> Vec<Voxel> {
 fn behind<'a>(map: &'a Map, brick: &'a Brick) -> impl Iterator<Item = Voxel> + 'a {
     let surface = brick.surface.as_deref().into_iter();
     surface.flat_map(move |s| {
-        addresses(brick.index, &brick.occupied).flat_map(move |at| {
-            let (cell, far) = (map.layout.cell(at), s.far[at.local()]);
+        let occupied = brick.at_least(map.model.occupied_from());
+        let occupied = addresses(brick.index, &occupied).collect::<Vec<_>>();
+        occupied.into_iter().flat_map(move |at| {
+            let (cell, far) = (map.layout.cell(at), s.far(at));
             let faces = (0..6).filter(move |face| far >> face & 1 == 1);
             faces.filter_map(move |face| unknown_beyond(map, cell, face))
         })
@@ -46,5 +48,5 @@ fn unknown_beyond(map: &Map, mut cell: [usize; 3], face: usize) -> Option<Voxel>
         return None;
     }
     let at = map.layout.address(cell);
-    (!map.bricks.test(at, |b| &b.known)).then(|| map.layout.voxel(at))
+    (!is_known(map.bricks.value(at))).then(|| map.layout.voxel(at))
 }

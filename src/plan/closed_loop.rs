@@ -13,7 +13,10 @@ use crate::sense::Observation;
 /// Takes measurement number `n` (from 1) at candidate `view`.
 pub trait Sensor {
     /// The measurement from a `world_from_camera` pose.
-    fn measure(&mut self, n: u32, view: usize, world_from_camera: &Pose) -> Observation;
+    ///
+    /// # Errors
+    /// [`PlanError::Sensor`] where there is none.
+    fn measure(&mut self, n: u32, view: usize, world_from_camera: &Pose) -> Result<Observation, PlanError>;
 }
 
 /// The parts of a step, in the order in which they end.
@@ -63,7 +66,7 @@ impl<'a, S: Sensor> ClosedLoop<'a, S> {
     /// The next turn; `None` once the run has ended.
     ///
     /// # Errors
-    /// The session cannot use the measurement.
+    /// The sensor gives no measurement, or the session cannot use it.
     pub fn step(&mut self, ended: &mut dyn FnMut(Part)) -> Result<Option<Step>, PlanError> {
         let Some(view) = self.next else { return Ok(None) };
         let count = self.session.views().len();
@@ -73,7 +76,7 @@ impl<'a, S: Sensor> ClosedLoop<'a, S> {
             .get(view)
             .ok_or(PlanError::NoSuchView { view, count })?;
         self.n += 1;
-        let observation = self.sensor.measure(self.n, view, &pose);
+        let observation = self.sensor.measure(self.n, view, &pose)?;
         ended(Part::Sense);
         let update = self
             .session

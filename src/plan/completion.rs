@@ -2,6 +2,7 @@
 
 use super::features::FeatureStatus;
 use super::knowledge::Knowledge;
+use super::methods::Worth;
 use super::predictions::is_inspected;
 use super::score::Gains;
 use super::status::Status;
@@ -77,7 +78,15 @@ fn verified(class: &Class, status: &Status, knowledge: &Knowledge) -> Condition 
 }
 
 /// Everything that a run can end by, and which of it holds.
-pub fn because(status: &Status, knowledge: &Knowledge, gains: &Gains, limit: u32) -> Vec<Condition> {
+///
+/// `worth` is the method's own measure of what is left to gain, where it has one.
+pub fn because(
+    status: &Status,
+    knowledge: &Knowledge,
+    gains: &Gains,
+    worth: Option<Worth>,
+    limit: u32,
+) -> Vec<Condition> {
     let library = &knowledge.library;
     let contradicted = status
         .contradiction
@@ -85,10 +94,16 @@ pub fn because(status: &Status, knowledge: &Knowledge, gains: &Gains, limit: u32
         .map(|c| library.feature(c.feature).name.clone());
     let mut conditions = vec![Condition::plain("contradiction", contradicted.is_some()).of(contradicted)];
     conditions.extend(confidence(status, knowledge));
-    conditions.extend(exhaustion(knowledge, gains));
+    conditions.extend(worth.map_or_else(|| exhaustion(knowledge, gains), |w| vec![too_little(w)]));
     let views = status.visited.len() as f64;
     conditions.push(Condition::at_least("view limit", Unit::Count, views, f64::from(limit)));
     conditions
+}
+
+/// No view is expected to show enough new surface.
+fn too_little(worth: Worth) -> Condition {
+    let bounds = (None, Some(worth.least));
+    Condition::quantity("new surface", Unit::Voxels, worth.most, bounds, worth.exhausted())
 }
 
 /// The conditions of s_ail (eq. 11): what the unvisited views come nearest to

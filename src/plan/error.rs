@@ -60,6 +60,9 @@ pub enum PlanError {
         /// Number of views.
         count: usize,
     },
+    /// The sensor gave no measurement.
+    #[error("the sensor gave no measurement: {0}")]
+    Sensor(String),
     /// An observation that is no measurement.
     #[error("the observation cannot be used: {0}")]
     BadObservation(&'static str),

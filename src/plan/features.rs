@@ -99,6 +99,8 @@ pub struct Predicted {
     /// What each visited view reached of `voxels`, one row a view; nothing in
     /// the blind ones.
     pub looks: Vec<Vec<bool>>,
+    /// Which of `voxels` have a measured point within ξ.
+    pub touched: Vec<bool>,
     /// Which of `voxels` are inspected.
     pub inspected: Vec<bool>,
 }

@@ -8,10 +8,11 @@
 //!   `observed`) it was measured free;
 //! - a look: x is inside the images, the depth range and the detector's
 //!   envelope, and not hidden. Where a measured point lies within ξ of x, an
-//!   occupied voxel within ξ does not hide it, for by eq. 3 that point inspects
-//!   it: a surface measured just in front of its predicted place would
-//!   otherwise hide that place for ever. Where none does, every occupied voxel
-//!   hides, or x would stay reachable and never be inspected.
+//!   occupied voxel within ξ of it, or one that touches it, does not hide it,
+//!   for by eq. 3 that point inspects it: a surface measured just in front of
+//!   its predicted place, or in the next layer of voxels, would otherwise hide
+//!   that place for ever. Where none does, every occupied voxel hides, or x
+//!   would stay reachable and never be inspected.
 //!
 //! A look counts only if the detector was run on it: where no definite rule
 //! detects the feature, views taken before its antecedents were measured are
@@ -26,12 +27,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::viewpoint::Viewpoint;
+use super::look::Look;
 use super::world::World;
 use crate::geometry::{Point, Polygon, Vector};
 use crate::map::{Grid, Occupancy, Voxel};
 use crate::primitives::Envelope;
-use crate::rules::{Inspected, Task};
+use crate::rules::{Inspected, Task, Visibility};
 
 /// A voxel of PV_ij.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +54,8 @@ pub struct Criteria {
     pub absent: f64,
     /// How eq. 3 counts a voxel.
     pub inspected: Inspected,
+    /// What hides a voxel.
+    pub visibility: Visibility,
 }
 
 impl From<&Task> for Criteria {
@@ -61,6 +64,7 @@ impl From<&Task> for Criteria {
             near: task.thresholds.near,
             absent: task.thresholds.absent,
             inspected: task.inspected,
+            visibility: task.visibility,
         }
     }
 }
@@ -135,38 +139,49 @@ fn half_width(radius: f64, dy: i64, dz: i64) -> Option<i64> {
     (left >= 0.0).then(|| left.sqrt().floor() as i64)
 }
 
-/// Which of the predicted voxels are reachable from a view: inside the images,
-/// the depth range and the envelope, and not hidden. Only those that `wanted`
-/// names by their index are tested.
+/// Which of the predicted voxels have a measured point within `near` metres.
+pub fn touched<W: World + ?Sized>(world: &W, voxels: &[PredictedVoxel], near: f64) -> Vec<bool> {
+    voxels.iter().map(|v| world.measured_within(&v.centre, near)).collect()
+}
+
+/// Which of the predicted voxels are reachable in a look: inside the images, the
+/// depth range and the envelope, and not hidden, where `touched` by what lies farther
+/// than `near` metres in front. Only those that `wanted` names by their index are
+/// tested.
 pub fn reachable<W: World + ?Sized>(
-    world: &W,
-    view: &Viewpoint,
+    look: &Look<'_, W>,
     voxels: &[PredictedVoxel],
+    touched: &[bool],
     envelope: &Envelope,
     near: f64,
     wanted: impl Fn(usize) -> bool,
 ) -> Vec<bool> {
-    let sees = |v: &PredictedVoxel| {
-        let faces = |n: &Vector| view.could_detect(&v.centre, n, envelope);
-        let tolerance = || {
-            if world.measured_within(&v.centre, near) {
-                near
-            } else {
-                0.0
-            }
-        };
-        v.normals.iter().any(faces) && world.visible(view.eye(), v.voxel, tolerance())
+    let own_surface = near.max(touching(look.grid()));
+    let sees = |k: usize, v: &PredictedVoxel| {
+        let faces = |n: &Vector| look.view().could_detect(&v.centre, n, envelope);
+        let tolerance = if touched[k] { own_surface } else { 0.0 };
+        v.normals.iter().any(faces) && look.sees(v.voxel, tolerance)
     };
-    voxels.iter().enumerate().map(|(k, v)| wanted(k) && sees(v)).collect()
+    let tested = voxels.iter().enumerate();
+    tested.map(|(k, v)| wanted(k) && sees(k, v)).collect()
+}
+
+/// Largest distance between the centres of voxels that touch, metres.
+fn touching(grid: &Grid) -> f64 {
+    3.0_f64.sqrt() * grid.voxel
 }
 
 /// Which of the predicted voxels there is evidence about.
-pub fn evidence<W: World + ?Sized>(world: &W, voxels: &[PredictedVoxel], criteria: &Criteria) -> Vec<bool> {
+pub fn evidence<W: World + ?Sized>(
+    world: &W,
+    voxels: &[PredictedVoxel],
+    touched: &[bool],
+    criteria: &Criteria,
+) -> Vec<bool> {
     let free_counts = criteria.inspected == Inspected::Observed;
-    let known = |v: &PredictedVoxel| {
-        free_counts && world.occupancy(v.voxel) == Occupancy::Free || world.measured_within(&v.centre, criteria.near)
-    };
-    voxels.iter().map(known).collect()
+    let is_free = |v: &PredictedVoxel| world.occupancy(v.voxel) == Occupancy::Free;
+    let known = |(v, touched): (&PredictedVoxel, &bool)| *touched || free_counts && is_free(v);
+    voxels.iter().zip(touched).map(known).collect()
 }
 
 /// Which of the predicted voxels are inspected, given what each visited view

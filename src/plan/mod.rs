@@ -16,6 +16,7 @@ pub mod features;
 pub mod inspection;
 pub mod instances;
 mod knowledge;
+mod look;
 pub mod methods;
 pub mod predictions;
 pub mod reasoning;
@@ -35,6 +36,7 @@ pub use completion::{Completion, Outcome};
 pub use error::PlanError;
 pub use features::Existence;
 pub use knowledge::Knowledge;
+pub use look::{Look, Targets};
 pub use reasoning::Proofs;
 pub use report::{
     ContradictionReport, Decision, End, FeatureReport, InstanceReport, Next, Standing, TargetName, Terms, Update,

@@ -17,8 +17,9 @@ use rayon::prelude::*;
 use super::error::PlanError;
 use super::expansion::{Expansion, expansions};
 use super::features::{Existence, FeatureStatus, Found, Pin, Predicted};
-use super::inspection::{self, evidence, inspected, predicted_voxels, reachable, tagged};
+use super::inspection::{self, evidence, inspected, predicted_voxels, reachable, tagged, touched};
 use super::knowledge::Knowledge;
+use super::look::Look;
 use super::status::Status;
 use super::trace::{Nothing, Trace};
 use super::world::World;
@@ -46,12 +47,15 @@ pub fn refresh<W: World + ?Sized>(
     world: &W,
     trace: &mut Trace,
 ) -> Result<(), PlanError> {
+    let visited = status.visited.clone();
+    let visibility = knowledge.criteria.visibility;
+    let visited: Vec<_> = visited.iter().map(|view| Look::of(world, view, visibility)).collect();
     for id in knowledge.library.feature_ids() {
         let offers = offers(id, status, knowledge, trace)?;
         name_found(id, &offers, status, knowledge);
         let open = unfulfilled(id, offers, status, knowledge);
         replace(id, open, status, knowledge, world, trace);
-        inspect(id, status, knowledge, world);
+        inspect(&mut status.features[id.index()], knowledge, &visited, world);
     }
     Ok(())
 }
@@ -300,6 +304,7 @@ fn place<W: World + ?Sized>(
     status.next_tag += 1;
     Some(Predicted {
         tagged: tagged(world, &voxels, knowledge.criteria.near),
+        touched: vec![false; voxels.len()],
         inspected: vec![false; voxels.len()],
         envelope: knowledge.envelope(id, offer.expansion.rule),
         polygons: offer.polygons,
@@ -314,18 +319,24 @@ fn place<W: World + ?Sized>(
 
 /// Counts the views that a prediction has not been held against yet: the new
 /// one, or all where the prediction is new.
-fn inspect<W: World + ?Sized>(id: FeatureId, status: &mut Status, knowledge: &Knowledge, world: &W) {
+fn inspect<W: World + ?Sized>(feature: &mut FeatureStatus, knowledge: &Knowledge, visited: &[Look<'_, W>], world: &W) {
     let criteria = &knowledge.criteria;
-    let (visited, feature) = (&status.visited, &mut status.features[id.index()]);
     for predicted in feature.predicted.values_mut() {
         let (voxels, envelope) = (&predicted.voxels, &predicted.envelope);
         let blind = predicted.blind;
+        let touched = touched(world, voxels, criteria.near);
         let missing = predicted.looks.len().min(visited.len())..visited.len();
-        let look = |k| reachable(world, &visited[k], voxels, envelope, criteria.near, |_| k >= blind);
+        let look = |k: usize| {
+            if k < blind {
+                return vec![false; voxels.len()];
+            }
+            reachable(&visited[k], voxels, &touched, envelope, criteria.near, |_| true)
+        };
         let looks: Vec<Vec<bool>> = missing.into_par_iter().map(look).collect();
         predicted.looks.extend(looks);
-        let known = evidence(world, voxels, criteria);
+        let known = evidence(world, voxels, &touched, criteria);
         predicted.inspected = inspected(&predicted.looks, &known, envelope.whole, criteria.absent);
+        predicted.touched = touched;
     }
 }
 

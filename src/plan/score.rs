@@ -4,13 +4,12 @@
 //! rear-side ones and, for the overlap, occupied and pre-occupied ones. Views
 //! are independent and their results are collected by index.
 
-use std::collections::BTreeSet;
-
 use rayon::prelude::*;
 
 use super::features::Predicted;
 use super::inspection::{reachable, reaches};
 use super::knowledge::Knowledge;
+use super::look::{Look, Targets};
 use super::status::Status;
 use super::viewpoint::Viewpoint;
 use super::world::World;
@@ -84,12 +83,15 @@ pub fn gains<W: World + ?Sized>(
     status: &Status,
     knowledge: &Knowledge,
 ) -> Gains {
-    let each = || unvisited.par_iter().map(|v| &candidates[*v]);
-    let feature: Vec<FeatureGain> = each().map(|v| feature_gain(world, v, status, knowledge)).collect();
+    let looks = || {
+        let look = |v: &usize| Look::of(world, &candidates[*v], knowledge.criteria.visibility);
+        unvisited.par_iter().map(look)
+    };
+    let feature: Vec<FeatureGain> = looks().map(|l| feature_gain(&l, status, knowledge)).collect();
     let w = feature.iter().all(|g| g.bits <= 0.0);
     let seen: Vec<usize> = if w {
-        let rear = world.rear_side();
-        each().map(|v| reachable_plain(world, v, &rear, 0.0)).collect()
+        let rear = Targets::of(world, world.rear_side());
+        looks().map(|look| look.count(&rear)).collect()
     } else {
         vec![0; unvisited.len()]
     };
@@ -103,12 +105,7 @@ pub fn gains<W: World + ?Sized>(
 }
 
 /// G_fd(v) = max over i, j of w_i · n_ij(v) / n_t,ij.
-pub fn feature_gain<W: World + ?Sized>(
-    world: &W,
-    view: &Viewpoint,
-    status: &Status,
-    knowledge: &Knowledge,
-) -> FeatureGain {
+pub fn feature_gain<W: World + ?Sized>(look: &Look<'_, W>, status: &Status, knowledge: &Knowledge) -> FeatureGain {
     let mut best = FeatureGain::default();
     for id in knowledge.library.feature_ids() {
         let weight = status.weights[id.index()];
@@ -116,7 +113,7 @@ pub fn feature_gain<W: World + ?Sized>(
             continue;
         }
         for (key, predicted) in &status.feature(id).predicted {
-            let reach = reach(world, view, predicted, knowledge);
+            let reach = reach(look, predicted, knowledge);
             let target = || Target {
                 feature: id,
                 key: key.clone(),
@@ -153,43 +150,47 @@ impl Reach {
 /// n_ij(v) after the gain floor: the not yet inspected voxels of PV_ij that are
 /// reachable. 0 where the detector needs the feature whole and the view shows
 /// less than ξ_ned of it.
-pub fn reachable_count<W: World + ?Sized>(
-    world: &W,
-    view: &Viewpoint,
-    predicted: &Predicted,
-    knowledge: &Knowledge,
-) -> u64 {
-    reach(world, view, predicted, knowledge).counted(knowledge)
+pub fn reachable_count<W: World + ?Sized>(look: &Look<'_, W>, predicted: &Predicted, knowledge: &Knowledge) -> u64 {
+    reach(look, predicted, knowledge).counted(knowledge)
 }
 
 /// Voxels of PV_ij that a view reaches, inspected or not.
-pub fn shown_count<W: World + ?Sized>(
-    world: &W,
-    view: &Viewpoint,
-    predicted: &Predicted,
-    knowledge: &Knowledge,
-) -> usize {
-    let near = knowledge.criteria.near;
-    let reached = reachable(world, view, &predicted.voxels, &predicted.envelope, near, |_| true);
+pub fn shown_count<W: World + ?Sized>(look: &Look<'_, W>, predicted: &Predicted, knowledge: &Knowledge) -> usize {
+    let reached = reached(look, predicted, knowledge, |_| true);
     reached.into_iter().filter(|r| *r).count()
 }
 
-fn reach<W: World + ?Sized>(world: &W, view: &Viewpoint, predicted: &Predicted, knowledge: &Knowledge) -> Reach {
+fn reach<W: World + ?Sized>(look: &Look<'_, W>, predicted: &Predicted, knowledge: &Knowledge) -> Reach {
     let whole = predicted.envelope.whole;
     let open = |k: usize| !predicted.inspected[k];
-    let (near, absent) = (knowledge.criteria.near, knowledge.criteria.absent);
-    let wanted = |k| whole || open(k);
-    let reached = reachable(world, view, &predicted.voxels, &predicted.envelope, near, wanted);
+    let reached = reached(look, predicted, knowledge, |k| whole || open(k));
     let all = reached.iter().filter(|r| **r).count();
     Reach {
         open: reached.iter().enumerate().filter(|(k, r)| **r && open(*k)).count(),
-        enough: !whole || reaches(all, predicted.voxels.len(), absent),
+        enough: !whole || reaches(all, predicted.voxels.len(), knowledge.criteria.absent),
     }
 }
 
+fn reached<W: World + ?Sized>(
+    look: &Look<'_, W>,
+    predicted: &Predicted,
+    knowledge: &Knowledge,
+    wanted: impl Fn(usize) -> bool,
+) -> Vec<bool> {
+    let (voxels, touched) = (&predicted.voxels, &predicted.touched);
+    reachable(
+        look,
+        voxels,
+        touched,
+        &predicted.envelope,
+        knowledge.criteria.near,
+        wanted,
+    )
+}
+
 /// G_so(v) after the gain floor: reachable rear-side voxels.
-pub fn surface_gain<W: World + ?Sized>(world: &W, view: &Viewpoint, rear: &[Voxel], knowledge: &Knowledge) -> u64 {
-    floored(reachable_plain(world, view, rear, 0.0), knowledge)
+pub fn surface_gain<W: World + ?Sized>(look: &Look<'_, W>, rear: &Targets, knowledge: &Knowledge) -> u64 {
+    floored(look.count(rear), knowledge)
 }
 
 /// Gains below the task's floor are none.
@@ -205,40 +206,35 @@ fn floored(n: usize, knowledge: &Knowledge) -> u64 {
 /// reachable pre-occupied and the reachable rear-side ones. A voxel that is
 /// both pre-occupied and rear-side counts once; a view that reaches nothing
 /// has no overlap.
-pub fn overlap_share<W: World + ?Sized>(world: &W, view: &Viewpoint, parts: &OverlapParts, near: f64) -> f64 {
-    let occupied = reachable_plain(world, view, &parts.occupied, 0.0);
-    let preoccupied = reachable_plain(world, view, &parts.preoccupied, near);
-    let rear = reachable_plain(world, view, &parts.rear_side, 0.0);
+pub fn overlap_share<W: World + ?Sized>(look: &Look<'_, W>, parts: &OverlapParts, near: f64) -> f64 {
+    let occupied = look.count(&parts.occupied);
+    let preoccupied = look.count_within(&parts.preoccupied, near);
+    let rear = look.count(&parts.rear_side);
     occupied as f64 / ((occupied + preoccupied + rear) as f64).max(1.0)
 }
 
 /// The voxels that an overlap is counted from.
 #[derive(Clone, Debug)]
 pub struct OverlapParts {
-    occupied: Vec<Voxel>,
-    preoccupied: Vec<Voxel>,
-    rear_side: Vec<Voxel>,
+    occupied: Targets,
+    preoccupied: Targets,
+    rear_side: Targets,
 }
 
 impl OverlapParts {
     /// Gathers them.
     pub fn of<W: World + ?Sized>(world: &W, status: &Status) -> Self {
         let predicted = status.features.iter().flat_map(|f| f.predicted.values());
-        let tagged: BTreeSet<Voxel> = predicted.flat_map(|p| p.tagged.iter().copied()).collect();
-        let unknown = |v: &Voxel| world.occupancy(*v) == Occupancy::Unknown;
+        let mut tagged: Vec<Voxel> = predicted.flat_map(|p| p.tagged.iter().copied()).collect();
+        tagged.sort_unstable();
+        tagged.dedup();
         let mut rear_side = world.rear_side();
-        rear_side.retain(|v| !tagged.contains(v));
+        rear_side.retain(|v| tagged.binary_search(v).is_err());
+        tagged.retain(|v| world.occupancy(*v) == Occupancy::Unknown);
         Self {
-            occupied: world.occupied(),
-            preoccupied: tagged.into_iter().filter(unknown).collect(),
-            rear_side,
+            occupied: Targets::of(world, world.occupied()),
+            preoccupied: Targets::of(world, tagged),
+            rear_side: Targets::of(world, rear_side),
         }
     }
-}
-
-/// Voxels inside the depth image and range that nothing hides.
-fn reachable_plain<W: World + ?Sized>(world: &W, view: &Viewpoint, voxels: &[Voxel], tolerance: f64) -> usize {
-    let grid = world.grid();
-    let reached = |v: &&Voxel| view.measures(&grid.centre(**v)) && world.visible(view.eye(), **v, tolerance);
-    voxels.iter().filter(reached).count()
 }

@@ -13,7 +13,8 @@ use super::completion::{self, Completion, Outcome};
 use super::error::PlanError;
 use super::instances::Finding;
 use super::knowledge::Knowledge;
-use super::methods::{self, Method, Rank, Situation};
+use super::look::Targets;
+use super::methods::{self, Choice, Method, Rank, Situation, Worth};
 use super::reasoning::{self, Proofs};
 use super::report::{self, Decision, Next, Standing, Terms, Update};
 use super::score::{self, Gains};
@@ -21,10 +22,10 @@ use super::status::Status;
 use super::trace::{Proof, Trace};
 use super::viewpoint::Viewpoint;
 use crate::detect::{self, Condition, Scan};
-use crate::geometry::{Point, Pose};
+use crate::geometry::{Camera, Point, Pose};
 use crate::map::{Map, Tag};
 use crate::primitives::{Arguments, poses};
-use crate::rules::{BadArgument, Library, Rule, RuleSet, Task};
+use crate::rules::{BadArgument, Insertion, Library, Rule, RuleSet, Task};
 use crate::sense::Observation;
 
 /// How a run differs from what its task says.
@@ -36,6 +37,9 @@ pub struct Options {
     pub seed: u64,
     /// Most measurements; the task's where `None`.
     pub limit: Option<u32>,
+    /// Candidate views, each with its camera and `world_from_camera`; the task's
+    /// where `None`.
+    pub views: Option<Vec<(Camera, Pose)>>,
 }
 
 /// The parts of taking in a measurement.
@@ -63,6 +67,7 @@ pub struct Session {
     map: Map,
     status: Status,
     tags: BTreeSet<Tag>,
+    gains: Vec<(usize, f64)>,
     decision: Decision,
 }
 
@@ -79,24 +84,29 @@ impl Session {
     pub fn new(rules: &RuleSet, task: &str, options: Options) -> Result<Self, PlanError> {
         let knowledge = Knowledge::new(rules, task)?;
         let task = &knowledge.task;
-        let poses = poses(&task.views, &task.space).map_err(|source| PlanError::Views {
-            task: task.name.clone(),
-            source,
-        })?;
-        if poses.is_empty() {
+        let views = match options.views {
+            Some(views) => views,
+            None => candidates(task)?,
+        };
+        if views.is_empty() {
             return Err(PlanError::NoViews(task.name.clone()));
         }
+        let poses: Vec<Pose> = views.iter().map(|(_, pose)| *pose).collect();
         let start = start_of(options.seed, poses.len());
         Ok(Self {
             method: methods::method(options.method.as_deref().unwrap_or(&task.method))?,
             random: Pcg64::new(u128::from(options.seed), METHOD_STREAM),
             seed: options.seed,
             limit: options.limit.unwrap_or(task.limit),
-            candidates: poses.iter().map(|pose| Viewpoint::new(task.camera, pose)).collect(),
+            candidates: views
+                .iter()
+                .map(|(camera, pose)| Viewpoint::new(*camera, pose))
+                .collect(),
             visited: vec![false; poses.len()],
             map: Map::new(&task.space, task.sensor_model)?,
             status: Status::new(&knowledge),
             tags: BTreeSet::new(),
+            gains: Vec::new(),
             decision: Decision::Next(first(start)),
             poses,
             knowledge,
@@ -126,6 +136,11 @@ impl Session {
     /// Features, classes and visited views.
     pub fn status(&self) -> &Status {
         &self.status
+    }
+
+    /// Unvisited views, and G_fd + W · G_so of each after the last measurement.
+    pub fn gains(&self) -> Vec<(usize, f64)> {
+        self.gains.clone()
     }
 
     /// The name of the method, lower case.
@@ -168,7 +183,10 @@ impl Session {
         ended: &mut dyn FnMut(Phase),
     ) -> Result<Update, PlanError> {
         self.check(view, observation)?;
-        let points = self.map.insert(observation);
+        let points = match self.task().insertion {
+            Insertion::Exact => self.map.insert(observation),
+            Insertion::Projective => self.map.insert_projected(observation),
+        };
         self.visited[view] = true;
         let pose = &observation.world_from_camera;
         self.status.visited.push(Viewpoint::new(observation.camera, pose));
@@ -234,40 +252,51 @@ impl Session {
     fn decide(&mut self) -> Completion {
         let unvisited: Vec<usize> = (0..self.visited.len()).filter(|v| !self.visited[*v]).collect();
         let gains = score::gains(&self.map, &self.candidates, &unvisited, &self.status, &self.knowledge);
+        let choice = self.choose(&gains);
+        let worth = choice.as_ref().and_then(|c| c.worth);
         let completion = Completion {
             confident: completion::confident(&self.status, &self.knowledge),
-            exhausted: gains.exhausted(),
+            exhausted: choice.is_none() || worth.map_or_else(|| gains.exhausted(), |w| w.exhausted()),
         };
+        let totals = gains.views.iter().enumerate().map(|(k, view)| (*view, gains.total(k)));
+        self.gains = totals.collect();
         let contradicted = self.status.contradiction.is_some();
         let views = self.status.visited.len();
         let ended = completion::outcome(completion, self.knowledge.task.goal, contradicted, views, self.limit);
-        self.decision = match ended {
-            Some(outcome) => self.end(outcome, completion, &gains),
-            None => self.choose(&gains, completion),
+        self.decision = match (ended, choice) {
+            (None, Some(choice)) => self.next(&gains, &choice),
+            (ended, _) => self.end(ended.unwrap_or(Outcome::Exhausted), completion, &gains, worth),
         };
         completion
     }
 
-    fn end(&self, outcome: Outcome, completion: Completion, gains: &Gains) -> Decision {
+    fn end(&self, outcome: Outcome, completion: Completion, gains: &Gains, worth: Option<Worth>) -> Decision {
         let mut end = report::end(outcome, completion, &self.status, &self.knowledge);
-        end.because = completion::because(&self.status, &self.knowledge, gains, self.limit);
+        end.because = completion::because(&self.status, &self.knowledge, gains, worth, self.limit);
         Decision::End(end)
     }
 
-    fn choose(&mut self, gains: &Gains, completion: Completion) -> Decision {
-        let current = self.status.visited.last().map_or_else(Point::origin, |v| *v.eye());
-        let situation = Situation {
+    fn choose(&mut self, gains: &Gains) -> Option<Choice> {
+        let mut random = self.random.clone();
+        let choice = self.method.choose(&self.situation(gains), &mut random);
+        self.random = random;
+        choice
+    }
+
+    fn situation<'a>(&'a self, gains: &'a Gains) -> Situation<'a> {
+        Situation {
             world: &self.map,
             knowledge: &self.knowledge,
             status: &self.status,
             candidates: &self.candidates,
             gains,
-            current,
-        };
-        let Some(choice) = self.method.choose(&situation, &mut self.random) else {
-            return self.end(Outcome::Exhausted, completion, gains);
-        };
-        let rear = self.map.rear_side();
+            current: self.status.visited.last().map_or_else(Point::origin, |v| *v.eye()),
+        }
+    }
+
+    fn next(&self, gains: &Gains, choice: &Choice) -> Decision {
+        let situation = self.situation(gains);
+        let rear = Targets::of(&self.map, self.map.rear_side());
         let standing = |rank: &Rank| {
             let (view, gain) = (gains.views[rank.position], &gains.feature[rank.position]);
             Standing {
@@ -276,7 +305,7 @@ impl Session {
                 terms: Terms {
                     overlap: rank.overlap,
                     feature: gain.bits,
-                    surface: score::surface_gain(&self.map, &self.candidates[view], &rear, &self.knowledge),
+                    surface: score::surface_gain(&situation.look(rank.position), &rear, &self.knowledge),
                     w: gains.w,
                 },
                 share: rank.share,
@@ -290,6 +319,15 @@ impl Session {
             runners_up: choice.rivals.iter().map(standing).collect(),
         })
     }
+}
+
+/// S_v of a task.
+fn candidates(task: &Task) -> Result<Vec<(Camera, Pose)>, PlanError> {
+    let poses = poses(&task.views, &task.space).map_err(|source| PlanError::Views {
+        task: task.name.clone(),
+        source,
+    })?;
+    Ok(poses.into_iter().map(|pose| (task.camera, pose)).collect())
 }
 
 /// The start view: a stream of its own, so that it depends on nothing but the

@@ -1,6 +1,7 @@
 //! The simulator as the sensor of a closed loop.
 
 use super::closed_loop::Sensor;
+use super::error::PlanError;
 use crate::geometry::{Camera, Pose};
 use crate::sense::{Noise, Observation, Simulator};
 
@@ -17,8 +18,9 @@ pub struct Simulated<'a> {
 }
 
 impl Sensor for Simulated<'_> {
-    fn measure(&mut self, n: u32, _view: usize, world_from_camera: &Pose) -> Observation {
-        self.simulator
-            .observe(&self.camera, world_from_camera, self.noise, self.seed, n)
+    fn measure(&mut self, n: u32, _view: usize, world_from_camera: &Pose) -> Result<Observation, PlanError> {
+        Ok(self
+            .simulator
+            .observe(&self.camera, world_from_camera, self.noise, self.seed, n))
     }
 }

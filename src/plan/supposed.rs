@@ -119,6 +119,10 @@ impl World for Unseen {
         Occupancy::Unknown
     }
 
+    fn probability(&self, _: Voxel) -> Option<f64> {
+        None
+    }
+
     fn measured_within(&self, _: &Point, _: f64) -> bool {
         false
     }

@@ -9,6 +9,7 @@ use crate::primitives::{Envelope, ImageKind};
 #[derive(Clone, Debug)]
 pub struct Viewpoint {
     camera: Camera,
+    world_from_camera: Pose,
     camera_from_world: Pose,
     eye: Point,
 }
@@ -18,9 +19,20 @@ impl Viewpoint {
     pub fn new(camera: Camera, world_from_camera: &Pose) -> Self {
         Self {
             camera,
+            world_from_camera: *world_from_camera,
             camera_from_world: world_from_camera.inverse(),
             eye: Point::from(world_from_camera.translation.vector),
         }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// Its place: `world_from_camera`.
+    pub fn pose(&self) -> &Pose {
+        &self.world_from_camera
     }
 
     /// Where the camera stands, world axes.
@@ -39,6 +51,10 @@ impl Viewpoint {
     ///
     /// A detector on colour needs the depth image too: the feature is placed by it.
     pub fn could_detect(&self, p: &Point, normal: &Vector, envelope: &Envelope) -> bool {
+        // First what rules out most and costs least.
+        if !self.faces(p, normal, envelope) {
+            return false;
+        }
         let Some(depth) = self.depth_of(p) else {
             return false;
         };
@@ -47,12 +63,40 @@ impl Viewpoint {
             ImageKind::Colour => &self.camera.colour,
         };
         let resolved = image.fx / depth >= envelope.min_pixels_per_metre;
-        resolved && self.faces(p, normal, envelope) && image.project(&(self.camera_from_world * p)).is_some()
+        resolved && image.project(&(self.camera_from_world * p)).is_some()
+    }
+
+    /// The rays of the depth image through the centres of every k-th pixel of every
+    /// k-th row, k being the least that leaves at most `a_row` of a row: where each
+    /// enters and leaves the depth range, world axes.
+    pub fn rays(&self, a_row: u32) -> impl Iterator<Item = (Point, Point)> + use<> {
+        let (image, range) = (self.camera.depth, self.camera.range);
+        let world_from_camera = self.camera_from_world.inverse();
+        let every = image.width.div_ceil(a_row.max(1)).max(1) as usize;
+        let along = move |n: u32| (every / 2..n as usize).step_by(every).map(|k| k as f64 + 0.5);
+        let pixels = along(image.height).flat_map(move |v| along(image.width).map(move |u| (u, v)));
+        pixels.map(move |(u, v)| {
+            let ray = image.ray(u, v);
+            let at = |depth: f64| world_from_camera * Point::from(ray * depth);
+            (at(range.min), at(range.max))
+        })
+    }
+
+    /// The area across the line of sight that one of [`Viewpoint::rays`] stands for at
+    /// the depth of a point, m².
+    pub fn ray_area(&self, p: &Point, a_row: u32) -> f64 {
+        let image = &self.camera.depth;
+        let every = f64::from(image.width.div_ceil(a_row.max(1)).max(1));
+        let depth = (self.camera_from_world * p).z.max(0.0);
+        let cosine = depth / (p - self.eye).norm().max(1e-12);
+        every * every * depth * depth / (image.fx * image.fy) * cosine
     }
 
     fn faces(&self, p: &Point, normal: &Vector, envelope: &Envelope) -> bool {
         let sight = self.eye - p;
-        normal.dot(&sight) >= envelope.max_incidence.cos() * sight.norm()
+        let along = normal.dot(&sight);
+        let turned_away = along < 0.0 && envelope.max_incidence <= std::f64::consts::FRAC_PI_2;
+        !turned_away && along >= envelope.max_incidence.cos() * sight.norm()
     }
 
     /// z-depth of a point inside the depth image and range, metres.

@@ -10,11 +10,18 @@ use crate::rules::Call;
 /// the arguments do not say, as those of a mesh file.
 pub fn extremes(shape: &Call) -> Option<Vec<Point>> {
     match shape.primitive.as_str() {
+        "box" => cuboid(shape),
         "prism" => prism(shape),
         "pyramid" => pyramid(shape),
         "tank" => tank(shape),
         _ => None,
     }
+}
+
+fn cuboid(shape: &Call) -> Option<Vec<Point>> {
+    let size = |name| Some(shape.length(name).ok()? / 2.0);
+    let corner = Point::new(size("width")?, size("depth")?, size("height")?);
+    Some(vec![corner, -corner])
 }
 
 fn prism(shape: &Call) -> Option<Vec<Point>> {
@@ -107,6 +114,7 @@ mod tests {
     #[test]
     fn plain_shapes_reach_as_far_as_they_are_said_to() {
         for text in [
+            "box(100 mm, 200 mm, 300 mm)",
             "prism(sides: 4, radius: 100 mm, height: 200 mm)",
             "prism(sides: 5, radius: 100 mm, height: 200 mm, lean: 12 deg)",
             "prism(sides: 3, radius: 100 mm, height: 200 mm, taper: -10 deg)",

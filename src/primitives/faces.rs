@@ -13,7 +13,7 @@ pub(super) const ALL: &[Primitive] = &[
         parameters: &[Parameter::required(
             "corners",
             Type::List(&Type::Point),
-            "Its corners, counter-clockwise as seen from outside, 3 to 64.",
+            "Its corners, counter-clockwise as seen from outside, 3 to 64; those of a bottom, which looks down, go clockwise as seen from above.",
         )],
         doc: "A planar face of known place; its first edge runs from the first corner to the second.",
     },

@@ -49,7 +49,34 @@ const TOP: Parameter = Parameter::or(
     "Colour of the top.",
 );
 
+const fn face(name: &'static str, doc: &'static str) -> Parameter {
+    Parameter::optional(name, Type::Colour, doc)
+}
+
 pub(super) const ALL: &[Primitive] = &[
+    Primitive {
+        name: "box",
+        result: Type::Shape,
+        features: &[],
+        parameters: &[
+            Parameter::required("width", Type::Length, "Size along x."),
+            Parameter::required("depth", Type::Length, "Size along y."),
+            Parameter::required("height", Type::Length, "Size along z."),
+            Parameter::or(
+                "colour",
+                Type::Colour,
+                || Value::Colour(Colour([200, 200, 200])),
+                "Colour of every face that has none of its own.",
+            ),
+            face("front", "Colour of the face towards +x."),
+            face("back", "Colour of the face towards -x."),
+            face("left", "Colour of the face towards +y."),
+            face("right", "Colour of the face towards -y."),
+            face("top", "Colour of the face towards +z."),
+            face("bottom", "Colour of the face towards -z."),
+        ],
+        doc: "A box, origin at its middle, with a colour of its own for any face.",
+    },
     Primitive {
         name: "prism",
         result: Type::Shape,
@@ -71,7 +98,7 @@ pub(super) const ALL: &[Primitive] = &[
             GREEN_SIDE,
             TOP,
         ],
-        doc: "A prism that stands on its bottom, origin at the centre of its height.\n\nSides are numbered from 1, counter-clockwise from above, side 1 facing +x.",
+        doc: "A prism that stands on its bottom, origin at the centre of its height.\n\nSides are numbered from 1, counter-clockwise from above, side 1 facing +x. All sides have one colour: a box with one coloured side is a `box`.",
     },
     Primitive {
         name: "pyramid",
@@ -124,7 +151,7 @@ pub(super) const ALL: &[Primitive] = &[
                 "Which axis of the file points up; glTF says so itself.",
             ),
         ],
-        doc: "A triangle mesh from a file.",
+        doc: "A triangle mesh from a file, with its colours.\n\nColours are those of the file where it has any: of its vertices or faces (PLY, OBJ), materials and textures (glTF, OBJ); else it is grey.",
     },
     Primitive {
         name: "dent",

@@ -3,7 +3,9 @@
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
+use super::artefact::hex;
 use super::{Call, Place};
 
 /// Prior information about the objects that a task may meet.
@@ -174,6 +176,42 @@ impl Rule {
         } else {
             format!("{} {arrow}", antecedents.join(", "))
         }
+    }
+
+    /// What tells it from other rules wherever it stands: the SHA-256 of its JSON
+    /// without id and place, its features by their names; the first 16 digits.
+    pub fn digest(&self, library: &Library) -> String {
+        let mut rule = serde_json::to_value(self).unwrap_or_default();
+        if let Some(fields) = rule.as_object_mut() {
+            fields.retain(|name, _| name != "id" && name != "place");
+        }
+        by_name(&mut rule, library);
+        let mut digits = hex(&Sha256::digest(rule.to_string().as_bytes()));
+        digits.truncate(16);
+        digits
+    }
+}
+
+/// Puts names for the ids of features.
+fn by_name(value: &mut serde_json::Value, library: &Library) {
+    let name = |id: &mut serde_json::Value| {
+        let feature = id.as_u64().and_then(|id| library.features.get(id as usize));
+        if let Some(feature) = feature {
+            *id = feature.name.clone().into();
+        }
+    };
+    match value {
+        serde_json::Value::Array(items) => items.iter_mut().for_each(|item| by_name(item, library)),
+        serde_json::Value::Object(fields) => {
+            for (key, value) in fields {
+                match (key.as_str(), value) {
+                    ("feature" | "consequent", id) if id.is_u64() => name(id),
+                    ("antecedents", serde_json::Value::Array(ids)) => ids.iter_mut().for_each(name),
+                    (_, other) => by_name(other, library),
+                }
+            }
+        }
+        _ => {}
     }
 }
 

@@ -23,4 +23,4 @@ pub use scene::{Backdrop, Marker, Scene, SceneObject};
 pub use study::{Settings, Study, Subject, Variant};
 #[cfg(test)]
 pub(crate) use task::BYTES_PER_VOXEL;
-pub use task::{Goal, Inspected, SensorModel, Space, Task, Thresholds};
+pub use task::{Goal, Insertion, Inspected, METHODS, SensorModel, Space, Task, Thresholds, Visibility};

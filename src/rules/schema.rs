@@ -82,6 +82,7 @@ fn the_schema_refuses_what_the_reader_refuses() {
         ),
         ("/tasks/0/goal", serde_json::json!({"confident": true})),
         ("/tasks/0/inspected", serde_json::json!("sometimes")),
+        ("/tasks/0/insertion", serde_json::json!("rays")),
         ("/tasks/0/limit", serde_json::json!(-3)),
         ("/sources/0", serde_json::json!({"path": "a.vpl"})),
     ] {

@@ -34,14 +34,45 @@ pub struct Task {
     pub gain_floor: u32,
     /// How eq. 3 counts a voxel.
     pub inspected: Inspected,
+    /// How it is decided what hides a voxel.
+    pub visibility: Visibility,
     /// Whether every predicted feature of the winning class must be inspected
     /// before the class counts as confident.
     pub verify: bool,
+    /// How measurements enter the map.
+    #[serde(default)]
+    pub insertion: Insertion,
     /// How measurements change a voxel.
     pub sensor_model: SensorModel,
     /// Where it was declared.
     pub place: Place,
 }
+
+/// The names of the methods of choosing views that a task can ask for.
+///
+/// `_implemented` is a method as its reference implementation has it, where that
+/// is not what was published.
+pub const METHODS: &[&str] = &[
+    "gn",
+    "gno",
+    "joint",
+    "joint2",
+    "oa",
+    "oa_implemented",
+    "uv",
+    "uv_implemented",
+    "rsv",
+    "rsv_implemented",
+    "rse",
+    "rse_implemented",
+    "pc",
+    "af",
+    "ae",
+    "ae_implemented",
+    "ts",
+    "pfdt",
+    "random",
+];
 
 /// The parts of the completion status that must be reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -69,12 +100,12 @@ pub struct Space {
     pub voxel: f64,
 }
 
-/// Bytes that the map takes for a measured voxel away from surfaces.
-pub(crate) const BYTES_PER_VOXEL: f64 = 1.5;
+/// Bytes that the map takes for a measured voxel away from surfaces, at most.
+pub(crate) const BYTES_PER_VOXEL: f64 = 1.1;
 
 impl Space {
-    /// Bytes of a map of which everything was measured, about: one and a half a voxel.
-    /// Only what was measured takes any.
+    /// Bytes of a map of which everything was measured, about: one a voxel, where
+    /// no brick of 8³ is of one value. Only what was measured takes any.
     pub fn map_bytes(&self) -> f64 {
         let voxels: f64 = self.size.iter().map(|side| (side / self.voxel).ceil()).product();
         voxels * BYTES_PER_VOXEL
@@ -108,6 +139,29 @@ pub enum Inspected {
     NearPoint,
     /// An observed point lies within ξ, or the voxel was observed free.
     Observed,
+}
+
+/// Which voxels a measurement finds free.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Insertion {
+    /// Those that a ray passes on its way to the centre of a voxel with a point: OctoMap's.
+    #[default]
+    Exact,
+    /// Those whose centre lies nearer than the reading of the pixel that it falls on.
+    Projective,
+}
+
+/// How it is decided whether something hides a voxel from a view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Visibility {
+    /// An occupied voxel lies on the line from its centre to the eye.
+    Exact,
+    /// An occupied voxel is nearer where its centre falls in the image.
+    Centre,
 }
 
 /// OctoMap's sensor model, in probabilities.

@@ -15,6 +15,7 @@ pub use bound::least_views;
 
 use index::Index;
 use rayon::prelude::*;
+use samples::Sample;
 use view::View;
 
 use super::{Observation, Simulator};
@@ -22,6 +23,8 @@ use crate::geometry::{Bounds, Camera, Point, Pose};
 
 /// Candidate views held in memory at a time.
 const VIEWS_AT_ONCE: usize = 64;
+/// Consecutive samples that are looked for together.
+const NEIGHBOURS: usize = 1_024;
 
 /// The coverage of one run.
 #[derive(Clone, Debug)]
@@ -42,12 +45,11 @@ impl Coverage {
         let samples = samples::on(simulator.mesh(), &space);
         let mut observable = vec![false; samples.len()];
         for some in views.chunks(VIEWS_AT_ONCE) {
-            let drawn: Vec<View> = some.iter().map(|pose| View::of(simulator, camera, pose)).collect();
+            let drawn: Vec<View> = some.par_iter().map(|pose| View::of(simulator, camera, pose)).collect();
             observable
-                .par_iter_mut()
-                .zip(&samples)
-                .filter(|(known, _)| !**known)
-                .for_each(|(known, sample)| *known = drawn.iter().any(|view| view.shows(sample, near)));
+                .par_chunks_mut(NEIGHBOURS)
+                .zip(samples.par_chunks(NEIGHBOURS))
+                .for_each(|(known, samples)| mark(known, samples, &drawn, near));
         }
         let points = samples
             .iter()
@@ -107,6 +109,18 @@ impl Coverage {
     /// Covered samples over observable ones; `None` where nothing is observable.
     pub fn share(&self) -> Option<f64> {
         (!self.points.is_empty()).then(|| self.covered as f64 / self.points.len() as f64)
+    }
+}
+
+/// Marks the samples that some view shows. What showed one mostly shows the next,
+/// so it is asked first.
+fn mark(known: &mut [bool], samples: &[Sample], views: &[View], near: f64) {
+    let mut last = 0;
+    for (known, sample) in known.iter_mut().zip(samples).filter(|(known, _)| !**known) {
+        let mut order = (last..views.len()).chain(0..last);
+        if let Some(view) = order.find(|&view| views[view].shows(sample, near)) {
+            (*known, last) = (true, view);
+        }
     }
 }
 

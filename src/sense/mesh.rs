@@ -15,6 +15,7 @@ mod read;
 mod stl;
 
 pub use error::{MeshError, MeshWarning};
+pub(super) use image::decode as decode_image;
 pub use options::{Axis, MeshOptions, Units};
 pub use read::read;
 
@@ -138,29 +139,34 @@ impl Mesh {
     /// of consistent winding. Corners within a millionth of the largest extent
     /// count as one, since files round.
     pub fn open_edges(&self) -> usize {
-        let bounds = self.bounds();
-        let grain = (bounds.size().max() * 1e-6).max(f64::MIN_POSITIVE);
-        let mut welded: HashMap<[i64; 3], u32> = HashMap::new();
-        let mut name = |p: &Point| {
-            let next = welded.len() as u32;
-            let cell = (p - bounds.min) / grain;
-            *welded
-                .entry([cell.x, cell.y, cell.z].map(|c| c.round() as i64))
-                .or_insert(next)
-        };
-        let mut balance: HashMap<(u32, u32), i64> = HashMap::new();
-        for k in 0..self.triangles.len() {
-            let ids = self.corners(k).map(|p| name(&p));
-            for (a, b) in [(ids[0], ids[1]), (ids[1], ids[2]), (ids[2], ids[0])] {
-                if a == b {
-                    continue;
-                }
-                let (key, sign) = if a < b { ((a, b), 1) } else { ((b, a), -1) };
-                *balance.entry(key).or_insert(0) += sign;
-            }
-        }
-        balance.values().filter(|&&n| n != 0).count()
+        open_edges((0..self.triangles.len()).map(|k| self.corners(k)), &self.bounds())
     }
+}
+
+/// As [`Mesh::open_edges`], of triangles within some bounds. Those without area
+/// count: they may be what joins their neighbours.
+fn open_edges(triangles: impl Iterator<Item = [Point; 3]>, bounds: &Bounds) -> usize {
+    let grain = (bounds.size().max() * 1e-6).max(f64::MIN_POSITIVE);
+    let mut welded: HashMap<[i64; 3], u32> = HashMap::new();
+    let mut name = |p: &Point| {
+        let next = welded.len() as u32;
+        let cell = (p - bounds.min) / grain;
+        *welded
+            .entry([cell.x, cell.y, cell.z].map(|c| c.round() as i64))
+            .or_insert(next)
+    };
+    let mut balance: HashMap<(u32, u32), i64> = HashMap::new();
+    for corners in triangles {
+        let ids = corners.map(|p| name(&p));
+        for (a, b) in [(ids[0], ids[1]), (ids[1], ids[2]), (ids[2], ids[0])] {
+            if a == b {
+                continue;
+            }
+            let (key, sign) = if a < b { ((a, b), 1) } else { ((b, a), -1) };
+            *balance.entry(key).or_insert(0) += sign;
+        }
+    }
+    balance.values().filter(|&&n| n != 0).count()
 }
 
 /// Signed solid angle of a triangle seen from `p` (Van Oosterom and Strackee 1983).

@@ -2,11 +2,12 @@
 //!
 //! The simulator turns a scene object into a triangle mesh (`shapes`, `mesh`),
 //! draws it (`raster`), and spoils the depth as a sensor would (`noise`).
-//! `coverage` measures what share of the object a run has seen. Nothing here
+//! `frames` reads recordings that others made. `coverage` measures what share of the object a run has seen. Nothing here
 //! plans or detects.
 
 mod coverage;
 mod error;
+pub mod frames;
 pub mod mesh;
 mod noise;
 mod observation;

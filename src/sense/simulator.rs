@@ -110,25 +110,27 @@ impl Simulator {
 
     /// The depth image of [`Simulator::observe`] alone.
     pub fn depth(&self, camera: &Camera, world_from_camera: &Pose, noise: Noise, seed: u64, n: u32) -> DepthImage {
-        let seen = Visibility::of(&self.mesh, &camera.depth, world_from_camera);
+        let seen = self.visibility(camera, world_from_camera);
         let backdrop = self.backdrop_seen(world_from_camera);
         let width = camera.depth.width as usize;
-        let mut metres = vec![0.0; camera.depth.pixels()];
+        let mut metres = seen.depths();
         metres.par_chunks_mut(width).enumerate().for_each(|(v, row)| {
             for (u, metre) in row.iter_mut().enumerate() {
-                let k = v * width + u;
-                let depth = seen.depth(k).or_else(|| Some(backdrop?.hit(&seen.ray(k))?.0 as f32));
-                *metre = depth.filter(|&z| camera.range.contains(f64::from(z))).unwrap_or(0.0);
+                if let Some(backdrop) = backdrop.filter(|_| *metre == 0.0) {
+                    *metre = backdrop.hit(&seen.ray(v * width + u)).map_or(0.0, |hit| hit.0 as f32);
+                }
+                if !camera.range.contains(f64::from(*metre)) {
+                    *metre = 0.0;
+                }
             }
         });
-        let incidence = |k: usize| {
-            let cosine = seen.cosine(k).or_else(|| Some(backdrop?.hit(&seen.ray(k))?.1));
-            cosine.unwrap_or(1.0).clamp(0.0, 1.0).acos()
-        };
         DepthImage {
             width: camera.depth.width,
             height: camera.depth.height,
-            metres: noise.apply(metres, width, incidence, camera.range, seed, n),
+            metres: match noise {
+                Noise::None => metres,
+                _ => noise.apply(metres, width, incidence(&seen, backdrop), camera.range, seed, n),
+            },
         }
     }
 
@@ -143,6 +145,17 @@ impl Simulator {
             radius: b.radius,
             colour: b.colour.0,
         })
+    }
+}
+
+/// The angle between the ray of a pixel and the normal of what it meets, radians.
+fn incidence(seen: &Visibility, backdrop: Option<raster::Backdrop>) -> impl Fn(usize) -> f64 {
+    let facets = seen.facets();
+    move |k| {
+        let ray = seen.ray(k);
+        let facet = facets.at(k).map(|facet| facet.cosine(&ray));
+        let cosine = facet.or_else(|| Some(backdrop?.hit(&ray)?.1));
+        cosine.unwrap_or(1.0).clamp(0.0, 1.0).acos()
     }
 }
 

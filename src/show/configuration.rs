@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::log::Start;
 use crate::plan::Session;
+use crate::rules::Visibility;
 
 /// The effective configuration of a run that would begin at view `start`.
 pub fn configuration(head: &Start, session: &Session, start: usize) -> String {
@@ -72,6 +73,11 @@ pub fn configuration(head: &Start, session: &Session, start: usize) -> String {
         ),
     );
     row("method", format!("{}, overlap {} %", head.method, task.overlap * 100.0));
+    let visibility = match task.visibility {
+        Visibility::Exact => "exact",
+        Visibility::Centre => "centre",
+    };
+    row("visibility", visibility.to_owned());
     row("noise", format!("{}, seed {}", head.noise, head.seed));
     row("rules", head.rules.clone());
     let weights: Vec<String> = head

@@ -111,7 +111,8 @@ pub fn summary(records: &[Record], object: &str) -> String {
     let Some(Record::End(end)) = records.last() else {
         return text;
     };
-    let _ = writeln!(text, "{}", verdict(end, object));
+    let one_class = views(records).last().is_some_and(|v| v.classes.0.len() == 1);
+    let _ = writeln!(text, "{}", verdict(end, object, one_class));
     let views: Vec<String> = views(records).map(|v| v.view.to_string()).collect();
     let _ = writeln!(text, "views       {}: {}", end.views, views.join(" → "));
     if let Some(coverage) = end.coverage {
@@ -140,8 +141,9 @@ fn views(records: &[Record]) -> impl Iterator<Item = &View> {
     })
 }
 
-fn verdict(end: &End, object: &str) -> String {
-    let class = end.class.as_deref();
+/// `one_class`: the library has no other, so that naming it would say nothing.
+fn verdict(end: &End, object: &str, one_class: bool) -> String {
+    let class = end.class.as_deref().filter(|_| !one_class);
     match (end.outcome.as_str(), class) {
         ("goal", Some(class)) => format!("goal        {object} is of class {class} (p = {:.3})", end.confidence),
         ("goal", None) => format!("goal        no view can show more of {object}"),

@@ -124,7 +124,7 @@ fn drive(design: &Design, stage: &Stage, job: &Job, method: &str) -> Result<Made
     let options = Options {
         method: Some(method.to_owned()),
         seed: job.seed,
-        limit: None,
+        ..Options::default()
     };
     let mut session = Session::new(&variant.rules, &variant.task.name, options)?;
     let sensor = Simulated {

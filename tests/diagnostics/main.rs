@@ -3,6 +3,7 @@
 
 mod explain;
 mod fixes;
+mod outside;
 mod pages;
 mod renderings;
 mod support;

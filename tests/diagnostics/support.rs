@@ -7,10 +7,11 @@ use std::process::{Command, Output, Stdio};
 
 use vpl::lang::{ReadFailure, World};
 
-/// Runs `vpl` with an input and no colour.
-pub fn vpl_with(arguments: &[&str], input: &[u8]) -> Output {
+/// Runs `vpl` in a folder, with an input and no colour.
+pub fn vpl_in(folder: &Path, arguments: &[&str], input: &[u8]) -> Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_vpl"))
         .args(arguments)
+        .current_dir(folder)
         .env("NO_COLOR", "1")
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
@@ -20,6 +21,10 @@ pub fn vpl_with(arguments: &[&str], input: &[u8]) -> Output {
     // A program that does not read closes the pipe.
     let _ = child.stdin.take().unwrap().write_all(input);
     child.wait_with_output().unwrap()
+}
+
+pub fn vpl_with(arguments: &[&str], input: &[u8]) -> Output {
+    vpl_in(Path::new("."), arguments, input)
 }
 
 pub fn vpl(arguments: &[&str]) -> Output {

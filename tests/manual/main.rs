@@ -1,7 +1,8 @@
 //! The manual says only what is so: every VPL block in README and docs is compiled,
 //! and every console block that begins with `$ vpl` is run and compared.
 //!
-//! - A `vpl` block that begins with `vpl 1` is a whole program, without errors or warnings.
+//! - A `vpl` block that begins with `vpl 1` is a whole program, without errors or warnings,
+//!   and laid out as `vpl fmt` does.
 //! - `vpl,NAME.vpl` appends to a file that the page's console blocks can use.
 //! - Any other `vpl` block is a fragment: items, entries of a library, statements of
 //!   a rule, a task or a scene. It must fit into one of the frames of `fragment`.
@@ -51,6 +52,23 @@ fn every_program_of_the_manual_is_right() {
                 Kind::Part(_) | Kind::Console => continue,
             };
             wrong.extend(said.map(|said| format!("{}:{}: {said}", path.display(), block.line)));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_program_of_the_manual_is_laid_out() {
+    let mut wrong = Vec::new();
+    for path in pages() {
+        let blocks = page::blocks(&std::fs::read_to_string(&path).unwrap());
+        let programs = blocks
+            .iter()
+            .filter(|b| matches!(b.kind, Kind::Program | Kind::Part(_)));
+        for block in programs {
+            let laid_out = lang::format(&block.text).text;
+            let first = block.text.lines().zip(laid_out.lines()).find(|(a, b)| a != b);
+            wrong.extend(first.map(|(is, due)| format!("{}:{}:\n  {is}\n  {due}", path.display(), block.line)));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -60,7 +60,10 @@ fn is_a_view(view: &Value, n: usize, last: bool) {
 fn is_a_run(records: &[Value], task: &str, object: &str) {
     let (start, end) = (&records[0], records.last().unwrap());
     assert_eq!(start["event"], "start");
-    has(start, &["vpl", "file", "seed", "noise", "limit", "rules", "weights"]);
+    has(
+        start,
+        &["vpl", "file", "seed", "noise", "insertion", "limit", "rules", "weights"],
+    );
     assert_eq!((&start["task"], &start["object"]), (&task.into(), &object.into()));
     assert_eq!((&start["method"], &start["candidates"]), (&"gn".into(), &64.into()));
     let views: Vec<&Value> = views(records).collect();

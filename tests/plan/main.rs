@@ -4,6 +4,7 @@
 mod contract;
 mod meshes;
 mod outputs;
+mod report;
 mod resume;
 mod support;
 mod tasks;

@@ -2,8 +2,8 @@
 
 use vpl::geometry::{Camera, DepthRange, Intrinsics, Point, Polygon, Vector};
 use vpl::rules::{
-    Call, Class, Each, Expr, Feature, FeatureId, FeatureKind, Goal, Inspected, Library, Place, Presence, Rule,
-    SensorModel, Space, Task, Thresholds, Value,
+    Call, Class, Each, Expr, Feature, FeatureId, FeatureKind, Goal, Insertion, Inspected, Library, Place, Presence,
+    Rule, SensorModel, Space, Task, Thresholds, Value, Visibility,
 };
 
 pub fn call<const N: usize>(primitive: &str, arguments: [(&str, Expr); N]) -> Call {
@@ -135,7 +135,9 @@ pub fn task() -> Task {
         limit: 20,
         gain_floor: 1,
         inspected: Inspected::Observed,
+        visibility: Visibility::Exact,
         verify: false,
+        insertion: Insertion::default(),
         sensor_model: SensorModel::default(),
         place: Place::default(),
     }

@@ -90,18 +90,6 @@ fn joint2_prefers_two_views_that_complete_each_other() {
 }
 
 #[test]
-fn joint_is_gn_where_no_class_is_left_to_tell_apart() {
-    let (library, seen) = scene(classes(&["a 111"]), &[left(), right()]);
-    let world = MicroWorld::parse(UNKNOWN);
-    let mut trial = Trial::new(library, task(), &[START, RIGHT, LEFT]);
-    trial.look(0, &world, &seen);
-    let gn = trial.next(&world, "gn");
-    assert!(gn.is_some());
-    assert_eq!(trial.next(&world, "joint"), gn);
-    assert_eq!(trial.next(&world, "joint2"), gn);
-}
-
-#[test]
 fn pfdt_does_not_return_to_a_feature_whose_view_was_taken() {
     let (library, seen) = one_or_two();
     let world = MicroWorld::parse(UNKNOWN);

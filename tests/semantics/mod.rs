@@ -1,8 +1,10 @@
 mod arrows;
 mod differential;
 mod fixtures;
+mod information;
 mod instances;
 mod methods;
+mod prospect;
 mod reference;
 mod simulated;
 mod tanks;

@@ -163,7 +163,8 @@ impl Scene<'_> {
     /// How far in front a surface may lie without hiding a predicted voxel.
     fn tolerance(&self, voxel: Voxel) -> f64 {
         if self.is_near_a_point(voxel) {
-            self.task.thresholds.near
+            let touching = self.grid.voxel * 3.0_f64.sqrt();
+            self.task.thresholds.near.max(touching)
         } else {
             0.0
         }

@@ -433,7 +433,7 @@ fn the_start_view_depends_on_the_seed_alone() {
         let options = Options {
             method: Some(method.to_owned()),
             seed,
-            limit: None,
+            ..Options::default()
         };
         Session::new(&rule_set(library, task), "task", options).unwrap().start()
     };

@@ -6,9 +6,11 @@ use vpl::detect::{Account, Condition, Measurement, Unit};
 use vpl::geometry::{Edge, Point, Polygon, Pose, look_at};
 use vpl::plan::features::Predicted;
 use vpl::plan::instances::Finding;
-use vpl::plan::methods::{self, Situation};
+use vpl::plan::methods::{self, Choice, Situation};
 use vpl::plan::score::{self, Gains};
-use vpl::plan::{Existence, Knowledge, Proof, Proofs, Status, Trace, Viewpoint, World, predictions, reasoning};
+use vpl::plan::{
+    Existence, Knowledge, Look, Proof, Proofs, Status, Targets, Trace, Viewpoint, World, predictions, reasoning,
+};
 use vpl::primitives::Arguments;
 use vpl::rules::{BadArgument, FeatureId, Library, Rule, Task};
 
@@ -167,20 +169,25 @@ impl Trial {
         )
     }
 
+    fn look_from<'a, W: World>(&'a self, world: &'a W, view: usize) -> Look<'a, W> {
+        Look::of(world, &self.candidates[view], self.knowledge.criteria.visibility)
+    }
+
     /// n_ij(v) of a feature's only prediction.
     pub fn n<W: World>(&self, world: &W, feature: u32, view: usize) -> u64 {
-        score::reachable_count(world, &self.candidates[view], self.predicted(feature), &self.knowledge)
+        score::reachable_count(&self.look_from(world, view), self.predicted(feature), &self.knowledge)
     }
 
     /// G_so(v).
     pub fn surface<W: World>(&self, world: &W, view: usize) -> u64 {
-        score::surface_gain(world, &self.candidates[view], &world.rear_side(), &self.knowledge)
+        let rear = Targets::of(world, world.rear_side());
+        score::surface_gain(&self.look_from(world, view), &rear, &self.knowledge)
     }
 
     /// The share that G_ovlp judges.
     pub fn overlap<W: World>(&self, world: &W, view: usize) -> f64 {
         let parts = score::OverlapParts::of(world, &self.status);
-        score::overlap_share(world, &self.candidates[view], &parts, self.knowledge.criteria.near)
+        score::overlap_share(&self.look_from(world, view), &parts, self.knowledge.criteria.near)
     }
 
     /// The next view of a method, and whether the overlap was relaxed.
@@ -189,18 +196,32 @@ impl Trial {
         if gains.exhausted() {
             return None;
         }
+        let choice = self.choice(world, method, &gains)?;
+        Some((gains.views[choice.best.position], choice.relaxed))
+    }
+
+    /// What a method values a view at, were it the only one left.
+    pub fn value<W: World>(&self, world: &W, method: &str, view: usize) -> f64 {
+        self.only(world, method, view).best.score
+    }
+
+    /// What a method would choose, were a view the only one left.
+    pub fn only<W: World>(&self, world: &W, method: &str, view: usize) -> Choice {
+        let gains = score::gains(world, &self.candidates, &[view], &self.status, &self.knowledge);
+        self.choice(world, method, &gains).unwrap()
+    }
+
+    fn choice<W: World>(&self, world: &W, method: &str, gains: &Gains) -> Option<Choice> {
         let situation = Situation {
             world,
             knowledge: &self.knowledge,
             status: &self.status,
             candidates: &self.candidates,
-            gains: &gains,
+            gains,
             current: *self.status.visited.last().unwrap().eye(),
         };
-        let choice = methods::method(method)
-            .unwrap()
-            .choose(&situation, &mut Pcg64::new(0, 0))?;
-        Some((gains.views[choice.best.position], choice.relaxed))
+        let method = methods::method(method).unwrap();
+        method.choose(&situation, &mut Pcg64::new(0, 0))
     }
 
     /// Holds every count and the next views to the reference. `measured` says
@@ -243,7 +264,7 @@ impl Trial {
                     scene.inspected(&instance).into_iter().collect::<Vec<_>>()
                 );
                 for (view, pose) in self.poses.iter().enumerate() {
-                    let n = score::reachable_count(world, &self.candidates[view], predicted, &self.knowledge);
+                    let n = score::reachable_count(&self.look_from(world, view), predicted, &self.knowledge);
                     assert_eq!(n, scene.n(&instance, pose) as u64, "n of view {view}");
                 }
                 instances.push(instance);

@@ -1,6 +1,6 @@
 //! Spaces made by hand: a row of characters a row of voxels, edge 1 m.
 //!
-//! `.` free, `#` occupied (a measured point at its centre), `?` unknown. Rows
+//! `.` free (p = ¼), `#` occupied (p = 0.9, a measured point at its centre), `?` unknown. Rows
 //! run along x; the first row of a layer is y = 0; layers are z = 0, 1, …, with
 //! a blank line between. The grid's corner is the origin, so voxel (x, y, z)
 //! has its centre at (x + ½, y + ½, z + ½).
@@ -45,6 +45,14 @@ impl MicroWorld {
         }
     }
 
+    /// The same voxels with another edge, metres.
+    pub fn scaled(mut self, voxel: f64) -> Self {
+        let by = voxel / self.grid.voxel;
+        self.grid.voxel = voxel;
+        self.points.iter_mut().for_each(|p| *p *= by);
+        self
+    }
+
     pub fn at(&self, x: i64, y: i64, z: i64) -> Voxel {
         self.grid.at([x, y, z]).unwrap()
     }
@@ -74,6 +82,14 @@ impl World for MicroWorld {
         self.states[voxel.0 as usize]
     }
 
+    fn probability(&self, voxel: Voxel) -> Option<f64> {
+        match self.occupancy(voxel) {
+            Occupancy::Unknown => None,
+            Occupancy::Free => Some(0.25),
+            Occupancy::Occupied => Some(0.9),
+        }
+    }
+
     fn measured_within(&self, p: &Point, radius: f64) -> bool {
         self.points.iter().any(|q| (p - q).norm() <= radius)
     }
@@ -81,7 +97,7 @@ impl World for MicroWorld {
     /// Steps from voxel to voxel towards the eye.
     fn visible(&self, eye: &Point, voxel: Voxel, tolerance: f64) -> bool {
         let centre = self.grid.centre(voxel);
-        let along: Vector = eye - centre;
+        let along: Vector = (eye - centre) / self.grid.voxel;
         let mut cell = self.grid.cell(voxel);
         let step = [0, 1, 2].map(|k| along[k].signum() as i64);
         let period = [0, 1, 2].map(|k| {

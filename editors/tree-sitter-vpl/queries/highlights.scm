@@ -47,7 +47,9 @@
   "method"
   "gain_floor"
   "inspected"
+  "visibility"
   "verify"
+  "insertion"
   "sensor_model"
   "backdrop"
   "object"
@@ -125,7 +127,9 @@
 (methods (name) @constant.builtin)
 (noise (name) @constant.builtin)
 (inspected (name) @constant.builtin)
+(visibility (name) @constant.builtin)
 (verify (name) @constant.builtin)
+(insertion (name) @constant.builtin)
 (supposed state: (name) @keyword)
 (expect state: (name) @keyword)
 

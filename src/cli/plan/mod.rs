@@ -1,8 +1,10 @@
-//! `vpl plan`: the closed loop in the built-in simulator.
+//! `vpl plan`: the closed loop, in the built-in simulator or on recorded frames.
 
 mod outputs;
 mod record;
+mod recorded;
 mod resume;
+mod source;
 mod stage;
 
 use std::path::{Path, PathBuf};
@@ -10,16 +12,19 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use self::record::Recorder;
-use self::stage::Stage;
+use self::source::{Drive, Source};
 use super::files::{Disk, human};
+use super::output::is_stdout;
+use super::recording::RecordingOptions;
 use super::{Failure, Outcome, more, print, report};
 use crate::lang::{self, Compilation, Diagnostic, render};
-use crate::plan::{self, ClosedLoop, Decision, Options, Part, PlanError, Session};
+use crate::plan::{self, Options, PlanError, Session};
 use crate::rules::{RuleSet, Task};
-use crate::sense::{Coverage, Noise};
+use crate::sense::Noise;
 use crate::show::{self, log};
 
-/// Run a task in the simulator: measure, reason, go to the next best view.
+/// Run a task in the simulator or on recorded frames: measure, reason, go to the
+/// next best view.
 #[derive(Args)]
 #[command(after_help = "Example: vpl plan examples/tanks/tanks.vpl --object tk4 --log run.jsonl")]
 pub(crate) struct Plan {
@@ -55,15 +60,32 @@ pub(crate) struct Plan {
     /// What the depth camera does to depth: none, structured_light.
     #[arg(long, value_name = "NAME", default_value = "none")]
     noise: String,
+    /// Recorded frames, a folder or a log: the views are those that were taken.
+    #[arg(long, value_name = "DATASET")]
+    frames: Option<PathBuf>,
+    #[command(flatten)]
+    recording: RecordingOptions,
     /// Print what would be run, and stop.
     #[arg(long)]
     dry_run: bool,
     /// Write the run log (JSON Lines); `-` is standard output.
     #[arg(long, value_name = "RUN.jsonl")]
     log: Option<PathBuf>,
+    /// Write a page that shows the run (HTML, opens offline); `-` is standard output.
+    #[arg(long, value_name = "RUN.html")]
+    report: Option<PathBuf>,
     /// Write the map as an OctoMap file; `-` is standard output.
-    #[arg(long, value_name = "OUT.bt")]
+    #[arg(long, value_name = "OUT.bt|OUT.ot")]
     map: Option<PathBuf>,
+    /// Write the measured points, one a voxel.
+    #[arg(long, value_name = "OUT.ply|OUT.pcd")]
+    cloud: Option<PathBuf>,
+    /// Write the faces that are predicted at the end.
+    #[arg(long, value_name = "OUT.ply|OUT.obj")]
+    predicted: Option<PathBuf>,
+    /// Write the poses of the measured views, as TUM's trajectory or transforms.json.
+    #[arg(long, value_name = "OUT.txt|OUT.json")]
+    poses: Option<PathBuf>,
     /// Repeat the views of a run log, then go on.
     #[arg(long, value_name = "RUN.jsonl")]
     resume: Option<PathBuf>,
@@ -109,29 +131,34 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
     let Some(rules) = &compiled.rules else {
         return Ok(Outcome::WrongInput);
     };
-    let task = chosen_task(rules, options.task.as_deref())?;
-    let stage = match stage::set(options, &compiled, rules, task)? {
-        Ok(stage) => stage,
-        Err(diagnostic) => return refuse(&compiled, diagnostic),
+    let name = chosen_task(rules, options.task.as_deref())?.name.clone();
+    // As the session is given it: with the camera of recorded frames.
+    let mut given = rules.clone();
+    let task = given.tasks.iter_mut().find(|t| t.name == name);
+    let task = task.ok_or_else(|| Failure::Run(format!("task `{name}` is gone")))?;
+    let source = match Source::set(options, &compiled, rules, task)? {
+        Ok(source) => source,
+        Err(outcome) => return Ok(outcome),
     };
     let session = Session::new(
-        rules,
-        &task.name,
+        &given,
+        &name,
         Options {
             method: options.method.clone(),
             seed: options.seed,
             limit: options.max_views,
+            views: source.views(),
         },
     );
     let mut session = session.map_err(usage_of)?;
     let start = chosen_start(options, &session)?;
-    if let Some(diagnostic) = stage::views_inside(&stage, &session) {
+    if let Some(diagnostic) = source.views_inside(&session) {
         return refuse(&compiled, diagnostic);
     }
     let head = log::Start::of(
         &session,
         &options.file,
-        &stage.name,
+        &source.name(),
         noise.name(),
         options.seed,
         rules.digest(),
@@ -144,20 +171,27 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
         Some(path) => resume::views(path, &head, start)?,
         None => Vec::new(),
     };
-    // Before the first view: a run is not lost to a wrong path.
-    options.map.as_deref().map_or(Ok(()), record::writable)?;
-    let mut recorder = Recorder::begin(options.log.as_deref(), head, logged.len())?;
-    let end = drive(&mut session, &stage, noise, options.seed, start, &logged, &mut recorder)?;
-    let mut summary = show::summary(recorder.records(), &stage.name);
+    outputs::writable(options)?;
+    let page = options
+        .report
+        .is_some()
+        .then(|| show::Report::begin(head.clone(), &session));
+    let mut recorder = Recorder::begin(options.log.as_deref(), page, head, logged.len())?;
+    let drive = Drive {
+        noise,
+        seed: options.seed,
+        logged: &logged,
+        recorder: &mut recorder,
+    };
+    let end = source.drive(&mut session, start, drive)?;
+    let mut summary = show::summary(recorder.records(), &source.name());
     summary += &options.log.as_deref().map_or(String::new(), why_line);
     if outputs::use_stdout(options) {
         report(&summary)?;
     } else {
         print(&summary)?;
     }
-    if let Some(path) = &options.map {
-        record::write_map(path, session.map())?;
-    }
+    outputs::write(options, &session, &recorder)?;
     Ok(if end == plan::Outcome::Goal {
         Outcome::Done
     } else {
@@ -167,45 +201,12 @@ pub(crate) fn run(options: &Plan) -> Result<Outcome, Failure> {
 
 /// Where the run can be asked about.
 fn why_line(log: &Path) -> String {
-    if record::is_stdout(log) {
+    if is_stdout(log) {
         return String::new();
     }
     let log = log.display().to_string();
     let quote = if log.contains(char::is_whitespace) { "'" } else { "" };
     format!("why         vpl why {quote}{log}{quote} SUBJECT: a rule, a feature, a class, or `view N`\n")
-}
-
-/// Runs the loop to its end, a record and a line a view.
-fn drive(
-    session: &mut Session,
-    stage: &Stage,
-    noise: Noise,
-    seed: u64,
-    start: usize,
-    logged: &[usize],
-    recorder: &mut Recorder,
-) -> Result<plan::Outcome, Failure> {
-    let task = session.task().clone();
-    recorder.preparing(&format!("working out what can be seen of {}", stage.name));
-    let mut coverage = Coverage::new(&stage.simulator, &task.camera, session.views(), task.thresholds.near);
-    let sensor = stage.sensor(task.camera, noise, seed);
-    let mut turn = ClosedLoop::new(session, sensor, start);
-    loop {
-        recorder.begin_view();
-        let step = turn
-            .step(&mut |part: Part| recorder.lap(part))
-            .map_err(|e| Failure::Run(e.to_string()))?;
-        let Some(step) = step else {
-            return Err(Failure::Run("the run has no end".into()));
-        };
-        coverage.observe(&step.observation);
-        recorder.view(&step)?;
-        resume::agrees(logged, &step)?;
-        if let Decision::End(end) = &step.decision {
-            recorder.end(end, coverage.share())?;
-            return Ok(end.outcome);
-        }
-    }
 }
 
 fn chosen_task<'a>(rules: &'a RuleSet, name: Option<&str>) -> Result<&'a Task, Failure> {

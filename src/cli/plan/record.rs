@@ -1,21 +1,22 @@
 //! What a run leaves: the log, a line a view, the map.
 
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter, Write};
+use std::fs::File;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::cli::output::{is_stdout, quoted, writable};
 use crate::cli::{Failure, report};
-use crate::map::{Map, write_bt};
-use crate::plan::{End, Part, Phase, Step};
+use crate::plan::{End, Part, Phase, Session, Step};
 use crate::show::log::{self, Milliseconds, Record};
-use crate::show::view_line;
+use crate::show::{Report, view_line};
 
 /// Writes each record as it comes, and shows a line a view.
 pub(super) struct Recorder {
     log: Option<Log>,
+    page: Option<Report>,
     records: Vec<Record>,
     last: Instant,
     ms: Milliseconds,
@@ -26,12 +27,18 @@ impl Recorder {
     /// Opens the log and writes its first line. A run that repeats `repeated`
     /// logged views writes nothing before it is past them: the log that it
     /// resumes may be the one that it writes.
-    pub fn begin(path: Option<&Path>, start: log::Start, repeated: usize) -> Result<Self, Failure> {
+    pub fn begin(
+        path: Option<&Path>,
+        page: Option<Report>,
+        start: log::Start,
+        repeated: usize,
+    ) -> Result<Self, Failure> {
         let log = path.map(|path| Log::begin(path, repeated)).transpose()?;
         // Hidden by itself where standard error is no terminal.
         let bar = ProgressBar::new_spinner().with_style(ProgressStyle::default_spinner());
         let mut recorder = Self {
             log,
+            page,
             records: Vec::new(),
             last: Instant::now(),
             ms: Milliseconds::default(),
@@ -73,9 +80,12 @@ impl Recorder {
         self.show(next);
     }
 
-    /// Records a view.
-    pub fn view(&mut self, step: &Step) -> Result<(), Failure> {
+    /// Records a view: the session as it stands after a step.
+    pub fn view(&mut self, session: &Session, step: &Step) -> Result<(), Failure> {
         let view = log::View::of(step, self.ms);
+        if let Some(page) = &mut self.page {
+            page.view(session, step, self.ms);
+        }
         let before = self.records.iter().rev().find_map(|r| match r {
             Record::View(view) => Some(view.as_ref()),
             _ => None,
@@ -90,6 +100,15 @@ impl Recorder {
         self.bar.finish_and_clear();
         let views = self.records.iter().filter(|r| matches!(r, Record::View(_))).count();
         self.write(Record::End(log::End::of(end, views as u32, coverage)))
+    }
+
+    /// The page that shows the run, where one is asked for.
+    pub fn page(&self) -> Option<String> {
+        let end = self.records.iter().rev().find_map(|r| match r {
+            Record::End(end) => Some(end),
+            _ => None,
+        });
+        self.page.as_ref().map(|page| page.page(end))
     }
 
     /// One write a line, so that an interrupted run leaves whole lines.
@@ -154,29 +173,6 @@ impl Log {
     }
 }
 
-/// Writes the map as an OctoMap binary tree.
-pub(super) fn write_map(path: &Path, map: &Map) -> Result<(), Failure> {
-    let (out, name) = create(path)?;
-    let mut out = BufWriter::new(out);
-    write_bt(map, &mut out)
-        .and_then(|()| out.flush())
-        .map_err(|error| Failure::Write(name, error))
-}
-
-/// Whether a file can be written; what it holds is kept.
-pub(super) fn writable(path: &Path) -> Result<(), Failure> {
-    if is_stdout(path) {
-        return Ok(());
-    }
-    let opened = OpenOptions::new().append(true).create(true).open(path);
-    opened.map(drop).map_err(|error| Failure::Write(quoted(path), error))
-}
-
-/// Whether a path is `-`, standard output.
-pub(super) fn is_stdout(path: &Path) -> bool {
-    path == Path::new("-")
-}
-
 fn create(path: &Path) -> Result<(Box<dyn Write>, String), Failure> {
     if is_stdout(path) {
         return Ok((Box::new(io::stdout()), "standard output".into()));
@@ -185,8 +181,4 @@ fn create(path: &Path) -> Result<(Box<dyn Write>, String), Failure> {
         Ok(file) => Ok((Box::new(file), quoted(path))),
         Err(error) => Err(Failure::Write(quoted(path), error)),
     }
-}
-
-fn quoted(path: &Path) -> String {
-    format!("`{}`", path.display())
 }

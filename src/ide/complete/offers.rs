@@ -95,7 +95,7 @@ impl Offering<'_> {
             "library" | "marked" if self.context.block != Block::Top => self.libraries(),
             "as" => self.classes(),
             "goal" | "and" => words_of("goal"),
-            "method" | "methods" | "noise" | "inspected" | "verify" => words_of(word),
+            "method" | "methods" | "noise" | "inspected" | "visibility" | "verify" | "insertion" => words_of(word),
             "space" => vocabulary::forms("space").iter().map(called).collect(),
             "backdrop" => {
                 let none = Completion::new("none", Kind::Word).docs("Empty air.");

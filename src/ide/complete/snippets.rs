@@ -101,7 +101,9 @@ const TASK: &[(&str, &str)] = &[
     ("method", "method $0"),
     ("gain_floor", "gain_floor ${1:5} voxels"),
     ("inspected", "inspected $0"),
+    ("visibility", "visibility $0"),
     ("verify", "verify all"),
+    ("insertion", "insertion $0"),
     ("sensor_model", "sensor_model { hit: ${1:70 %}, miss: ${2:40 %} }"),
 ];
 const TEST: &[(&str, &str)] = &[

@@ -12,7 +12,9 @@ pub(super) fn check(library: &Library) -> Vec<Diagnostic> {
     let concluded: BTreeSet<FeatureId> = library.rules.iter().map(|r| r.consequent).collect();
     for id in library.feature_ids() {
         let feature = library.feature(id);
-        if !library.classes.is_empty() && !library.classes.iter().any(|c| c.presence.has(id)) {
+        // A template has more than each of its users needs, and its file may be another's.
+        let own = feature.place.file == library.place.file;
+        if own && !library.classes.is_empty() && !library.classes.iter().any(|c| c.presence.has(id)) {
             found.push(
                 Diagnostic::new(Code::W0402, feature.place, format!("no class has `{}`", feature.name))
                     .help("list it in a class, or leave it out"),
@@ -64,6 +66,22 @@ mod tests {
     #[test]
     fn fires_on_a_feature_of_no_class_and_of_no_rule() {
         assert_eq!(codes(&[THIRD]), [Code::W0402, Code::W0404]);
+    }
+
+    #[test]
+    fn keeps_quiet_about_what_a_template_of_another_file_has() {
+        let used = [
+            (
+                "use std.views.sphere",
+                "use std.views.sphere\nuse std.markers.coded_box",
+            ),
+            (
+                "feature left : marker",
+                "use coded_box(width: 1 m, depth: 1 m, height: 1 m)\n feature left : marker",
+            ),
+            ("class both {", "class both { code[1], "),
+        ];
+        assert!(!codes(&used).contains(&Code::W0402), "{:?}", codes(&used));
     }
 
     #[test]

@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn fires_on_a_code_that_is_left_out() {
         let text = include_str!("../../../examples/tanks/tanks.vpl");
-        let line = "    code[7] at [-220 mm, 305 mm, 178 mm] facing +y     // left skirt, rear half\n";
+        let line = "    code[7] at [-220 mm, 305 mm, 178 mm]  facing +y    // left skirt, rear half\n";
         assert!(text.contains(line));
         let all = codes_of(&text.replace(line, ""));
         assert!(all.contains(&Code::W0412), "{all:?}");

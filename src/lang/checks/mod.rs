@@ -9,6 +9,7 @@ mod confidence;
 mod contradicting;
 mod cost;
 mod detectability;
+mod faces;
 mod features;
 mod firing;
 mod frustum;
@@ -86,6 +87,7 @@ fn of_library(library: &Library, layouts: &[Option<Placed>], found: &mut Vec<Dia
     found.extend(single::check(library));
     found.extend(superfluous::check(library));
     found.extend(contradicting::check(library));
+    found.extend(faces::check(library, layouts));
     found.extend(detectability::check(library));
     found.extend(alike::check(library));
     found.extend(layouts::check(library, layouts));

@@ -28,34 +28,38 @@ pub(super) fn check(library: &Library) -> Vec<Diagnostic> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::codes;
+    use super::super::testing::codes_of;
     use crate::lang::Code;
 
-    const LID: (&str, &str) = (
-        "feature right : marker",
-        "feature right : marker\n feature lid : polygon",
-    );
-    const FLAP: (&str, &str) = (
-        "layout flat",
-        "rule -> lid {\n detect plane(min_area: 0.01 m2)\n measure outline()\n }\n\
-         rule lid -> flap {\n for each edge in lid.edges\n detect plane_beside(edge, dihedral: 90 deg)\n\
-         measure outline(first: edge)\n predict rectangle_on(on: edge, dihedral: 90 deg, height: 100 mm)\n }\n\
-         layout flat",
-    );
-
-    fn library(flap: &str) -> Vec<Code> {
-        let declared = format!("{} feature flap : polygon{flap}", LID.1.to_owned() + "\n");
-        let (one, both) = ("class one { left }", "class one { left, lid, flap }");
-        codes(&[(LID.0, &declared), FLAP, (one, both)])
-    }
+    const BOXES: &str = "vpl 1
+use std.detect.coloured_plane
+use std.solids.upright_rectangle
+library boxes {
+  feature lid : polygon
+  feature flap : polygon
+  class open { lid, flap }
+  class closed { lid }
+  rule -> lid {
+    detect coloured_plane(red)
+    measure outline()
+  }
+  rule lid -> flap {
+    for each edge in lid.edges
+    detect plane_beside(edge, dihedral: 90 deg, within: 10 deg)
+    measure outline(first: edge)
+    predict upright_rectangle(on: edge, height: 100 mm)
+  }
+}
+";
 
     #[test]
     fn fires_where_each_edge_predicts_the_one_instance() {
-        assert_eq!(library(""), [Code::W0419]);
+        assert!(codes_of(BOXES).contains(&Code::W0419));
     }
 
     #[test]
     fn keeps_quiet_where_there_may_be_many() {
-        assert_eq!(library(" many"), []);
+        let many = BOXES.replace("flap : polygon", "flap : polygon many");
+        assert!(!codes_of(&many).contains(&Code::W0419));
     }
 }

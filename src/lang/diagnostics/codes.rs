@@ -103,6 +103,8 @@ codes! {
     E0603 "a run that cannot be made"
     E0604 "a layout that would be another program"
     E0605 "a folder that a study cannot use"
+    E0611 "a recording that cannot be used"
+    E0612 "a file that is no OctoMap tree"
     E0701 "a fact that does not hold"
     E0702 "evidence that contradicts itself"
     E0703 "an expectation that cannot be checked"

@@ -11,6 +11,7 @@ use super::preview::preview;
 use super::ruled::Ruled;
 use super::{Diagnostic, Label, Severity};
 use crate::lang::source::{FileId, SourceFile, SourceMap};
+use crate::lang::types::units;
 
 /// Narrower terminals are written as if they had this many columns.
 const LEAST_WIDTH: usize = 40;
@@ -219,14 +220,29 @@ fn wrapped(text: &str, first: usize, indent: usize, width: usize) -> String {
     out
 }
 
-/// The words of a text; what stands in backticks is one.
+/// The words of a text; what stands in backticks is one, and a number with its unit.
 fn pieces(text: &str) -> Vec<&str> {
-    let mut quoted = false;
-    let ends = |c: char| {
+    let (mut quoted, mut from) = (false, 0);
+    let mut out = Vec::new();
+    for (at, c) in text.char_indices() {
         quoted ^= c == '`';
-        c == ' ' && !quoted
-    };
-    text.split(ends).filter(|piece| !piece.is_empty()).collect()
+        if c == ' ' && !quoted && !parts_a_quantity(text, at) {
+            out.push(&text[from..at]);
+            from = at + 1;
+        }
+    }
+    out.push(&text[from..]);
+    out.retain(|piece| !piece.is_empty());
+    out
+}
+
+/// Whether a space stands between a number and its unit.
+fn parts_a_quantity(text: &str, at: usize) -> bool {
+    let unit = text[at + 1..]
+        .split(|c: char| c.is_whitespace() || ",;:)]".contains(c))
+        .next();
+    let unit = unit.map(|word| word.trim_end_matches('.'));
+    text[..at].ends_with(|c: char| c.is_ascii_digit()) && unit.is_some_and(units::is_known)
 }
 
 #[cfg(test)]
@@ -241,5 +257,7 @@ mod tests {
             "add `near: 10 mm`\n  and then some more\n  words"
         );
         assert_eq!(wrapped("word", 90, 2, 40), "word");
+        let text = "at [150 mm, 20 mm] of 3 boxes";
+        assert_eq!(wrapped(text, 2, 2, 12), "at\n  [150 mm,\n  20 mm] of\n  3 boxes");
     }
 }

@@ -14,8 +14,10 @@ pub(super) enum Shape {
     Feature,
     /// `class box { bottom, side } prior 60 %`.
     Class,
-    /// `object tk1 = tank() …`.
+    /// `object tk1 = tank() at … turned … marked … as …`.
     Object,
+    /// A place of a layout: `code[1] at … facing …`.
+    Place,
     /// A row of a table of classes.
     Row,
     /// A word and its value: `detect qr("a")`, `limit 20 views`.
@@ -28,32 +30,49 @@ const COMMENTS: usize = 45;
 /// Fewest spaces before such a comment.
 const GAP: usize = 3;
 
-/// Wider parts are not aligned.
-const WIDEST: usize = 80;
+/// What begins further right is not aligned.
+const WIDEST: usize = 120;
+
+/// Where a line may be padded: which of the columns of its shape that is, and what
+/// begins there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    pub column: usize,
+    pub at: usize,
+}
 
 /// The shape of a statement in a block whose own statement begins with `block`, and
 /// the pieces before which it may be padded.
-pub(super) fn shape(pieces: &[Piece], text: &str, block: &str) -> Option<(Shape, Vec<usize>)> {
+pub(super) fn shape(pieces: &[Piece], text: &str, block: &str) -> Option<(Shape, Vec<Stop>)> {
     let word = |at: usize| match pieces.get(at)? {
         Piece::Word { token, .. } => Some((token.class, token.text(text))),
         _ => None,
     };
-    let position = |written: &str| (1..pieces.len()).find(|at| word(*at).is_some_and(|(_, w)| w == written));
-    let (class, first) = word(0)?;
-    if class != TokenClass::Keyword {
-        return (block == "classes" && pieces.len() > 1).then(|| (Shape::Row, vec![1]));
-    }
-    match first {
-        "feature" => Some((Shape::Feature, vec![position(":")?])),
-        "class" => {
+    let position = |written: &str| {
+        let is_it = |(class, word)| word == written && !matches!(class, TokenClass::Name | TokenClass::Callee);
+        (1..pieces.len()).find(|at| word(*at).is_some_and(is_it))
+    };
+    let stops = |words: &[&str]| -> Vec<Stop> {
+        let found = words.iter().enumerate();
+        found
+            .filter_map(|(column, word)| position(word).map(|at| Stop { column, at }))
+            .collect()
+    };
+    let first = |at: usize| vec![Stop { column: 0, at }];
+    match word(0)? {
+        (TokenClass::Keyword, "feature") => Some((Shape::Feature, first(position(":")?))),
+        (TokenClass::Keyword, "class") => {
             let braces = pieces
                 .iter()
                 .position(|p| matches!(p, Piece::Group(g) if is_braces(g)))?;
-            Some((Shape::Class, [braces].into_iter().chain(position("prior")).collect()))
+            let prior = position("prior").map(|at| Stop { column: 1, at });
+            Some((Shape::Class, first(braces).into_iter().chain(prior).collect()))
         }
-        "object" => Some((Shape::Object, vec![position("=")?])),
-        _ if block.is_empty() || block == "library" || first == "for" => None,
-        _ => pieces.get(1)?.has_space().then(|| (Shape::Setting, vec![1])),
+        (TokenClass::Keyword, "object") => Some((Shape::Object, stops(&["=", "at", "turned", "marked", "as"]))),
+        (TokenClass::Keyword, word) if block.is_empty() || block == "library" || word == "for" => None,
+        (TokenClass::Keyword, _) => pieces.get(1)?.has_space().then(|| (Shape::Setting, first(1))),
+        _ if block == "layout" => Some((Shape::Place, stops(&["at", "facing"]))),
+        _ => (block == "classes" && pieces.len() > 1).then(|| (Shape::Row, first(1))),
     }
 }
 
@@ -82,34 +101,38 @@ pub(super) fn align(lines: &mut [Line]) {
 
 /// Pads the lines of a run, column by column.
 fn pad(lines: &mut [Line], run: &[usize]) {
-    let columns = run.iter().map(|at| lines[*at].stops.len()).max().unwrap_or(0);
+    let stops = run.iter().filter_map(|at| lines[*at].stops.last());
+    let columns = stops.map(|last| last.column + 1).max().unwrap_or(0);
     // The cells of a table stand a little apart from the names of its rows.
     let apart = usize::from(run.iter().any(|at| lines[*at].shape == Some(Shape::Row)));
     for column in 0..columns {
-        let cells: Vec<(usize, usize)> = run
+        let begins: Vec<(usize, usize)> = run
             .iter()
-            .filter_map(|at| Some((*at, lines[*at].cell(column)?)))
-            .filter(|(_, width)| *width <= WIDEST)
+            .filter_map(|at| Some((*at, lines[*at].begin(column)?)))
+            .filter(|(_, begin)| *begin <= WIDEST)
             .collect();
-        let widest = cells.iter().map(|(_, width)| *width).max().unwrap_or(0);
-        for (at, width) in cells {
-            lines[at].pad(column, widest - width + apart);
+        let furthest = begins.iter().map(|(_, begin)| *begin).max().unwrap_or(0);
+        for (at, begin) in begins {
+            lines[at].pad(column, furthest - begin + apart);
         }
     }
 }
 
 impl Line {
-    /// The width of what stands before a stop, in characters.
-    fn cell(&self, column: usize) -> Option<usize> {
-        let stop = *self.stops.get(column)?;
-        let start = column.checked_sub(1).map_or(0, |before| self.stops[before]);
-        Some(self.code[start..stop].chars().count())
+    /// Where a column begins, in characters.
+    fn begin(&self, column: usize) -> Option<usize> {
+        let stop = self.stops.iter().find(|stop| stop.column == column)?;
+        Some(self.code[..stop.at].chars().count())
     }
 
     fn pad(&mut self, column: usize, by: usize) {
-        self.code.insert_str(self.stops[column], &" ".repeat(by));
+        let Some(stop) = self.stops.iter().find(|stop| stop.column == column) else {
+            return;
+        };
+        self.code.insert_str(stop.at, &" ".repeat(by));
         self.width += by;
-        self.stops[column..].iter_mut().for_each(|stop| *stop += by);
+        let behind = self.stops.iter_mut().filter(|stop| stop.column >= column);
+        behind.for_each(|stop| stop.at += by);
     }
 
     /// The column where its code ends.

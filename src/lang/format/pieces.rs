@@ -54,6 +54,9 @@ pub(super) enum Form {
     Expanded,
 }
 
+/// Brackets up to this width stay on the line where they begin.
+const SHORT: usize = 24;
+
 /// A pair of brackets.
 #[derive(Debug)]
 pub(super) struct Group {
@@ -82,6 +85,11 @@ impl Group {
     /// number does.
     pub fn breaks(&self) -> bool {
         self.kind != Kind::Index && !self.body.is_empty() && !self.is_point()
+    }
+
+    /// Whether a line that is too long gets much shorter without it.
+    pub fn worth_breaking(&self) -> bool {
+        self.breaks() && (self.width > SHORT || self.form != Form::Flat)
     }
 
     /// Three numbers with their units, or fewer, on one line.

@@ -42,7 +42,10 @@ fn stable(text: &str) -> Result<String, TestCaseError> {
 /// Every program of the tree.
 fn programs() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut folders: Vec<PathBuf> = ["examples", "stdlib", "tests"].iter().map(|f| root.join(f)).collect();
+    let mut folders: Vec<PathBuf> = ["examples", "stdlib", "src/cli/new", "tests"]
+        .iter()
+        .map(|f| root.join(f))
+        .collect();
     let mut out = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {
@@ -67,10 +70,12 @@ fn every_program_of_the_tree_has_a_stable_layout() {
 }
 
 #[test]
-fn examples_and_the_standard_library_stand_as_they_should() {
+fn the_project_s_own_programs_stand_as_they_should() {
     let shipped = programs().into_iter().filter(|(path, _)| {
         let path = path.to_string_lossy();
-        path.contains("/examples/") || path.contains("/stdlib/")
+        ["/examples/", "/stdlib/", "/cli/new/", "/tests/plan/"]
+            .iter()
+            .any(|folder| path.contains(folder))
     });
     for (path, text) in shipped {
         assert_eq!(format(&text).text, text, "{}", path.display());
@@ -102,6 +107,13 @@ fn columns() {
 fn brackets() {
     insta::assert_snapshot!(laid_out(
         "vpl 1\n\nlet joined = f(a,\n   b)\nlet kept = f(\na, b,\n\n\nc)\nlet long = f(first: [1 mm, 2 mm, 3 mm, 4 mm], second: g(1, 2, 3), third: 300 mm, fourth: 400 mm, fifth: 500 mm)\nlet hugging = f(a, b: [\n1,2\n])\nlet both = f([\n1], [\n2\n])\nlet sum = (1 mm +\n 2 mm)\nlet else_ = f(\n a\n else b\n // last\n)\nlet only = polygon([[100 mm, 100 mm, 100 mm], [-100 mm, 100 mm, 100 mm], [-100 mm, 100 mm, 400 mm]]) + f([1])\nlet next =\n  f(1)\nlet chain = 1 mm +\n2 mm\n\nlibrary l {\n  class long_class { first_feature, second_feature, third_feature, fourth_feature, fifth_feature, sixth }\n  class broken {\n a\nb }\n  class mixed { a,\nb // b\n, c }\n}\ntask t {\n  thresholds { near: 10 mm, absent: 99 %, confidence: 99 % } ; limit 20 views\n  sensor_model {\n hit: 70 %; miss: 40 % }\n}\n"
+    ));
+}
+
+#[test]
+fn objects_and_places() {
+    insta::assert_snapshot!(laid_out(
+        "vpl 1\nlibrary l { layout q {\n label at [151 mm, 0 mm, 0 mm] facing +x\n hazard_of_it at [-151 mm, 0 mm, 0 mm] facing -x // back\n lid at p facing -x\n } }\nscene s {\n object plain = carton(blue) at [0 mm, 0 mm, 250 mm] turned 25 deg marked cartons.stickers as plain\n object spares_and_more = carton(blue, 200 mm) at [0 mm, 0 mm, 250 mm] turned 130 deg marked cartons.stickers as spares\n object bare = carton(blue) at [0 mm, 0 mm, 250 mm] marked cartons.stickers as bare\n object wide = prism(sides: 4, radius: 169.7 mm, height: 200 mm, side: grey) at [0 mm, 0 mm, 250 mm] turned 10 deg\n object far = f() at [0 mm, 0 mm, 250 mm]\n}\n"
     ));
 }
 

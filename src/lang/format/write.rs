@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::WIDTH;
-use super::columns::{Shape, shape};
+use super::columns::{Shape, Stop, shape};
 use super::pieces::{Form, Group, Kind, Piece};
 use super::spaces::continues;
 use crate::lang::syntax::{Token, TokenClass};
@@ -20,7 +20,7 @@ pub(super) struct Line {
     pub width: usize,
     pub comment: Option<Token>,
     /// Where `code` may be padded, in bytes, in order.
-    pub stops: Vec<usize>,
+    pub stops: Vec<Stop>,
     /// What it may be aligned with.
     pub shape: Option<Shape>,
     /// Lines that stay as they are, instead of all of this.
@@ -115,13 +115,13 @@ impl<'t> Writer<'t> {
 
     /// A statement or an argument. `tail` is the width of what must follow it on its
     /// last line.
-    fn sequence(&mut self, pieces: &[Piece], indent: usize, tail: usize, stops: &[usize]) {
+    fn sequence(&mut self, pieces: &[Piece], indent: usize, tail: usize, stops: &[Stop]) {
         let broken = self.broken(pieces, indent, tail);
         let mut base = indent;
         for (at, piece) in pieces.iter().enumerate() {
-            if stops.contains(&at) {
-                let end = self.last().code.len();
-                self.last().stops.push(end);
+            if let Some(stop) = stops.iter().find(|stop| stop.at == at) {
+                let at = self.last().code.len();
+                self.last().stops.push(Stop { at, ..*stop });
             }
             match piece {
                 Piece::Break { .. } => {
@@ -414,7 +414,7 @@ fn measure(pieces: &[Piece], column: usize, tail: usize, text: &str) -> Measured
             }
             Piece::Group(group) => {
                 let opens = before + usize::from(group.space) + group.depth() <= WIDTH;
-                if group.breaks() && group.width > widest && (opens || out.candidate.is_none()) {
+                if group.worth_breaking() && group.width > widest && (opens || out.candidate.is_none()) {
                     (out.candidate, widest) = (Some((at, group.depth())), group.width);
                 }
                 if group.form == Form::Hugging {

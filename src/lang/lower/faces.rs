@@ -1,7 +1,8 @@
 //! Written faces: their corners, and what is wrong with them.
 
 use crate::geometry::{Point, Polygon, Vector};
-use crate::primitives::MOST_CORNERS;
+use crate::predict;
+use crate::primitives::{Arguments, Datum, MOST_CORNERS};
 use crate::rules::{Call, Expr, Value};
 
 /// How far a corner may lie off the plane of the others, over the face's extent.
@@ -49,6 +50,31 @@ pub(super) fn attribute(call: &Call, name: &str) -> Option<Expr> {
         "normal" => Expr::Value(Value::Direction(face.normal())),
         _ => return None,
     })
+}
+
+/// The face that a predictor gives; `None` where it gives none or several, or one of its
+/// arguments is not known.
+pub(super) fn predicted(call: &Call) -> Option<Polygon> {
+    let prediction = predict::predict(&call.primitive, &arguments(call)?).ok()??;
+    match <[Polygon; 1]>::try_from(prediction.polygons) {
+        Ok([face]) => Some(face),
+        Err(_) => None,
+    }
+}
+
+fn arguments(call: &Call) -> Option<Arguments> {
+    let known = call.arguments.iter().map(|(name, e)| Some((name.clone(), datum(e)?)));
+    known.collect::<Option<_>>().map(Arguments)
+}
+
+/// What an expression of constants stands for.
+fn datum(e: &Expr) -> Option<Datum> {
+    match e {
+        Expr::Value(value) => Some(Datum::Constant(value.clone())),
+        Expr::List(items) => items.iter().map(datum).collect::<Option<_>>().map(Datum::List),
+        Expr::Call(call) => predict::value(&call.primitive, &arguments(call)?).ok()?,
+        _ => None,
+    }
 }
 
 /// What is wrong with a `polygon` call.

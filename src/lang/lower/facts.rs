@@ -104,6 +104,18 @@ impl<'a> Lowering<'a> {
         Polygon::new(faces::corners(&call)?)
     }
 
+    /// The one face that a predictor of constants gives.
+    fn predicted(&mut self, predictor: &'a typed::Expr) -> Option<Polygon> {
+        let call = self.primitive(predictor, &Env::default())?;
+        let face = faces::predicted(&call);
+        if face.is_none() {
+            let message = format!("`{}` predicts no face from these arguments", call.primitive);
+            let help = "write the face that is expected: `polygon([…])`";
+            self.report(Diagnostic::new(Code::E0703, predictor.span, message).help(help));
+        }
+        face
+    }
+
     fn marker_pose(&mut self, place: &'a stated::Place) -> Option<Pose> {
         let (at, facing) = (self.constant(&place.at), self.constant(&place.facing));
         match (at?, facing?) {
@@ -204,6 +216,7 @@ impl<'a> Lowering<'a> {
         library: Option<&Library>,
     ) -> Option<Polygon> {
         match place {
+            stated::Expected::Face(face) if face.ty == Type::Predictor => self.predicted(face),
             stated::Expected::Face(face) => self.face(face),
             stated::Expected::Marker(place) => {
                 let pose = self.marker_pose(place)?;

@@ -58,7 +58,9 @@ impl<'a> Lowering<'a> {
             limit: limit?,
             gain_floor: gain_floor?,
             inspected: task.inspected,
+            visibility: task.visibility,
             verify: task.verify,
+            insertion: task.insertion,
             sensor_model: sensor_model?,
             place: self.place(task.span),
         };

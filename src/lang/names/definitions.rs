@@ -185,8 +185,12 @@ fn bind((definitions, libraries): &mut InScope, name: &str, symbol: Option<Symbo
 
 fn nothing_named(import: &tree::Use, own: Option<&Own>) -> Diagnostic {
     let names = own.map_or(String::new(), |own| one_of(own.keys().map(String::as_str)));
+    let module = match &import.module {
+        tree::Module::Dotted(_) => "module".to_owned(),
+        tree::Module::Path(path) => format!("\"{}\"", path.text),
+    };
     Diagnostic::new(Code::E0204, import.span, "this import names nothing").help(format!(
-        "say what to bring into scope, of {names}: `use module.name` or `use module.{{a, b}}`"
+        "say what to bring into scope, of {names}: `use {module}.name` or `use {module}.{{a, b}}`"
     ))
 }
 

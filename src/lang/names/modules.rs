@@ -142,7 +142,39 @@ impl Loader<'_> {
             self.found.push(refused);
             return None;
         }
-        Some(Key::User(normal(&format!("{base}{}", path.text))))
+        let key = normal(&format!("{base}{}", path.text));
+        if let Some(name) = path.text.strip_prefix("std/")
+            && self.world.read(&format!("{}{key}", self.folder)).is_err()
+        {
+            let name = name.trim_end_matches(".vpl");
+            let message = format!("there is no file `{}`", path.text);
+            let out = Diagnostic::new(Code::E0105, path.span, message);
+            let help = format!("the standard library has no quotes: `use std.{name}.…`");
+            self.found.push(out.help(help));
+            return None;
+        }
+        if let Some(whole) = self.without_ending(&key) {
+            let (message, written) = (
+                format!("there is no file `{}`", path.text),
+                format!("{}.vpl", path.text),
+            );
+            let out = Diagnostic::new(Code::E0105, path.span, message);
+            self.found.push(out.help(format!("did you mean `{written}`?")).fix(
+                format!("write `{written}`"),
+                path.span,
+                format!("\"{written}\""),
+            ));
+            return Some(Key::User(whole));
+        }
+        Some(Key::User(key))
+    }
+
+    /// The file that a path means whose `.vpl` was left out.
+    fn without_ending(&self, path: &str) -> Option<String> {
+        let whole = format!("{path}.vpl");
+        let read = |path: &str| self.world.read(&format!("{}{path}", self.folder));
+        let is_it = !path.ends_with(".vpl") && read(path).is_err() && read(&whole).is_ok();
+        is_it.then_some(whole)
     }
 
     fn source(&mut self, key: &Key, import: Option<Span>) -> Option<FileId> {

@@ -72,6 +72,11 @@ const FOREIGN: &[(&str, &str)] = &[
     ("int", "count"),
     ("integer", "count"),
     ("float", "number"),
+    ("qr", "marker"),
+    ("qr_code", "marker"),
+    ("qrcode", "marker"),
+    ("tag", "marker"),
+    ("fiducial", "marker"),
 ];
 
 /// What a word of another language or habit is called here.

@@ -68,7 +68,9 @@ fn members(start: Rule) -> Option<&'static [Rule]> {
             Rule::kw_method,
             Rule::kw_gain_floor,
             Rule::kw_inspected,
+            Rule::kw_visibility,
             Rule::kw_verify,
+            Rule::kw_insertion,
             Rule::kw_sensor_model,
         ],
         Rule::scene_statement_only => &[Rule::kw_backdrop, Rule::kw_object],
@@ -170,7 +172,9 @@ fn describe(expected: Rule) -> Option<(u8, String)> {
         | Rule::method
         | Rule::gain_floor
         | Rule::inspected
+        | Rule::visibility
         | Rule::verify
+        | Rule::insertion
         | Rule::sensor_model
         | Rule::backdrop
         | Rule::object

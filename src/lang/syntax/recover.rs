@@ -142,14 +142,28 @@ fn unfinished(region: Span, at: usize, expected: &[String], part: &str, strict: 
     let end = region.start + part[..at].trim_end().len();
     let last = Span::new(region.file, end, end);
     let unclosed = expected.iter().any(|e| e == "`}`") && at >= part.trim_end().len();
-    if unclosed && let Some(open) = last_open_brace(part) {
+    if unclosed && let Some((open, due)) = unclosed_brace(part) {
         let open = region.start + open;
-        return syntax_error(last, "a `}` is missing")
+        let due = region.start + due;
+        return syntax_error(Span::new(region.file, due, due), "a `}` is missing")
             .label("expected here")
             .related(Span::new(region.file, open, open + 1), "this `{` is not closed")
             .help("add the missing `}`");
     }
     let out = syntax_error(last, message(expected, "found the end of the line")).label("here");
+    let closing = [')', ']']
+        .into_iter()
+        .find(|bracket| expected.contains(&format!("`{bracket}`")));
+    if let Some(bracket) = closing {
+        let help = format!("add the missing `{bracket}`");
+        let end = end - region.start;
+        let mended = format!("{}{bracket}{}", &part[..end], &part[end..]);
+        let out = out.help(help.clone());
+        return match Grammar::parse(strict, &mended) {
+            Ok(_) => out.fix(help, last, bracket.to_string()),
+            Err(_) => out,
+        };
+    }
     if expected.iter().any(|e| e.starts_with("the end of the text")) {
         return out.help("close the text with `\"` on its line");
     }
@@ -180,6 +194,11 @@ fn advice(found: &str, expected: &[String]) -> Option<String> {
             Some("a text ends on its line with `\"`; write `\\{` for a brace in it".into())
         }
         "#" => Some("a comment begins with `//`".into()),
+        "*" if has("a name") && has("`{`") => {
+            Some("nothing imports all of a module: name what you take, `use std.views.{sphere, ring}`".into())
+        }
+        "," if expected == ["`{`"] => Some("a rule concludes one feature: write a rule for each".into()),
+        "," if expected == ["the end of the line"] => Some("a statement has one value, and ends with its line".into()),
         "/*" | "*" => Some("a comment begins with `//` and ends with its line".into()),
         "feature" | "class" | "classes" | "rule" | "layout" if has("`library`") => {
             Some(format!("`{found}` belongs inside the braces of a `library`"))
@@ -213,23 +232,45 @@ pub(super) fn word_at(text: &str, at: usize) -> &str {
         .unwrap_or(&rest[..first.len_utf8()])
 }
 
-/// The offset of the innermost brace that is open where a text ends.
-fn last_open_brace(text: &str) -> Option<usize> {
-    let mut open = Vec::new();
-    let mut quoted = false;
-    let mut lines = 0;
+/// The offset of a brace that is not closed, and the one where its partner is due: the
+/// end of the text, or where a `}` stands further left than the line of its partner.
+fn unclosed_brace(text: &str) -> Option<(usize, usize)> {
+    let mut open: Vec<(usize, usize)> = Vec::new();
+    let (mut start, mut code_end) = (0, 0);
     for line in text.split_inclusive('\n') {
         let code = line.split("//").next().unwrap_or(line);
+        let indent = code.len() - code.trim_start().len();
+        let mut quoted = false;
         for (k, c) in code.char_indices() {
             match c {
                 '"' => quoted = !quoted,
-                '{' if !quoted => open.push(lines + k),
-                '}' if !quoted => drop(open.pop()),
+                '{' if !quoted => open.push((start + k, indent)),
+                '}' if !quoted => match open.pop() {
+                    Some((at, further)) if k == indent && further > indent => return Some((at, code_end)),
+                    _ => {}
+                },
                 _ => {}
             }
         }
-        quoted = false;
-        lines += line.len();
+        if !code.trim().is_empty() {
+            code_end = start + code.trim_end().len();
+        }
+        start += line.len();
     }
-    open.pop()
+    open.pop().map(|(at, _)| (at, code_end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::unclosed_brace;
+
+    #[test]
+    fn a_brace_is_due_where_the_indentation_says_so() {
+        let text = "library l {\n  layout a {\n    b\n}\n";
+        let open = text.find("{\n    b");
+        assert_eq!(unclosed_brace(text), open.zip(text.find("\n}")));
+        let flat = "library l {\nlayout a {\nb\n}\n";
+        assert_eq!(unclosed_brace(flat), Some((10, flat.trim_end().len())));
+        assert_eq!(unclosed_brace("a { b }"), None);
+    }
 }

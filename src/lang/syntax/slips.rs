@@ -92,6 +92,7 @@ pub(super) fn answer(failure: &Failure<'_>) -> Option<Diagnostic> {
     bullet(failure)
         .or_else(|| quoted_name(failure))
         .or_else(|| python_import(failure))
+        .or_else(|| index_by_dot(failure))
         .or_else(|| character(failure))
 }
 
@@ -156,6 +157,26 @@ fn python_import(failure: &Failure<'_>) -> Option<Diagnostic> {
     let help = format!("write `{right}`");
     let out = syntax_error(failure.place, "an import begins with `use`").help(help.clone());
     Some(mended(out, failure, &[(0, length)], &right, &help))
+}
+
+/// `code.2 at …`: an index stands in brackets.
+fn index_by_dot(failure: &Failure<'_>) -> Option<Diagnostic> {
+    let rest = failure.part.get(failure.at + 1..)?;
+    let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let name = failure.part[..failure.at].ends_with(|c: char| c.is_ascii_alphanumeric() || c == '_');
+    if failure.found != "." || digits == 0 || !name {
+        return None;
+    }
+    let right = format!("[{}]", &rest[..digits]);
+    let out = syntax_error(failure.place, "an index stands in brackets").label("not expected here");
+    let help = format!("write `{right}`");
+    Some(mended(
+        out.help(help.clone()),
+        failure,
+        &[(failure.at, 1 + digits)],
+        &right,
+        &help,
+    ))
 }
 
 /// `- near: 10 mm`, as lists are written in YAML.

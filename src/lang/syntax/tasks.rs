@@ -58,7 +58,9 @@ impl Builder<'_> {
             Rule::method => Kind::Method(name(self.file, &parts.next()?)),
             Rule::gain_floor => Kind::GainFloor(expr(self, parts.next()?)),
             Rule::inspected => Kind::Inspected(name(self.file, &parts.next()?)),
+            Rule::visibility => Kind::Visibility(name(self.file, &parts.next()?)),
             Rule::verify => Kind::Verify(name(self.file, &parts.next()?)),
+            Rule::insertion => Kind::Insertion(name(self.file, &parts.next()?)),
             _ => Kind::SensorModel(self.fields(parts.next()?)),
         })
     }

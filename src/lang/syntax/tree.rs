@@ -235,7 +235,9 @@ pub enum TaskStatementKind {
     Method(Name),
     GainFloor(Expr),
     Inspected(Name),
+    Visibility(Name),
     Verify(Name),
+    Insertion(Name),
     SensorModel(Vec<Field>),
 }
 
@@ -262,7 +264,9 @@ impl TaskStatementKind {
             Self::Method(_) => "method",
             Self::GainFloor(_) => "gain_floor",
             Self::Inspected(_) => "inspected",
+            Self::Visibility(_) => "visibility",
             Self::Verify(_) => "verify",
+            Self::Insertion(_) => "insertion",
             Self::SensorModel(_) => "sensor_model",
         }
     }

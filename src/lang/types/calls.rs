@@ -37,11 +37,17 @@ impl Checker<'_> {
     /// Looks at the arguments of a call that means nothing.
     fn arguments_alone(&mut self, call: &tree::Call, scope: Scope<'_>) -> Option<Expr> {
         for argument in &call.arguments {
-            if !matches!(argument.value.kind, tree::ExprKind::Reference(_)) {
-                self.infer(&argument.value, scope);
-            }
+            self.argument_alone(argument, scope);
         }
         None
+    }
+
+    /// Looks at an argument whose meaning is unknown: a word may be anything.
+    fn argument_alone(&mut self, argument: &tree::Argument, scope: Scope<'_>) {
+        let is_word = matches!(&argument.value.kind, tree::ExprKind::Reference(r) if r.fields.is_empty());
+        if !is_word {
+            self.infer(&argument.value, scope);
+        }
     }
 
     pub(super) fn primitive_call(
@@ -135,7 +141,11 @@ impl Checker<'_> {
             let what = format!("`{}` of `{callee}`", wanted[slot].name);
             given[slot] = match wanted[slot].ty {
                 Some(ty) => self.check(&argument.value, Due { ty, what: &what }, scope),
-                None => None,
+                // What the parameter takes is unknown, and the rest of the argument is not.
+                None => {
+                    self.argument_alone(argument, scope);
+                    None
+                }
             };
             right &= given[slot].is_some();
         }
@@ -293,9 +303,8 @@ impl Checker<'_> {
 /// What is written for a shape or a function that others have.
 fn foreign_call(name: &str) -> Option<&'static str> {
     Some(match name.to_ascii_lowercase().as_str() {
-        "box" | "cube" | "cuboid" | "block" => {
-            "a box is a prism of 4 sides: `prism(sides: 4, radius: …, height: …)`, its width is √2 times the radius"
-        }
+        "cube" | "cuboid" | "block" => "a cuboid is a `box(width: …, depth: …, height: …)`",
+        "rgb" | "rgba" | "hsv" | "hex" => "a colour is a name like `red`, or `#ff8000`",
         "cylinder" | "disc" | "disk" => "a prism of 12 sides is nearly round: `prism(sides: 12, radius: …, height: …)`",
         "cone" => "a pyramid of 12 sides is nearly round: `pyramid(sides: 12, radius: …, height: …)`",
         "stl" | "obj" | "ply" | "model" | "cad" => {

@@ -112,11 +112,7 @@ impl<'a> Checker<'a> {
             (Some(facing), None | Some(FeatureKind::Marker)) => {
                 self.fact_place(&placed.at, facing).map(Expected::Marker)
             }
-            (None, None | Some(FeatureKind::Polygon)) => {
-                let face = due(Type::Polygon, "a predicted face");
-                let face = self.check(&placed.at, face, Scope::of(self.program.main()));
-                face.map(Expected::Face)
-            }
+            (None, None | Some(FeatureKind::Polygon)) => self.predicted_face(&placed.at).map(Expected::Face),
             (_, Some(kind)) => {
                 let name = &placed.feature.name.text;
                 let help = match kind {
@@ -132,6 +128,20 @@ impl<'a> Checker<'a> {
             }
         };
         Some(ExpectationKind::Placed(id?, place?, within?))
+    }
+
+    /// A face, or a predictor: that stands for the face that it predicts.
+    fn predicted_face(&mut self, at: &'a tree::Expr) -> Option<Expr> {
+        let (face, scope) = (due(Type::Polygon, "a predicted face"), Scope::of(self.program.main()));
+        if !matches!(at.kind, tree::ExprKind::Call(_)) {
+            return self.check(at, face, scope);
+        }
+        let found = self.infer(at, scope)?;
+        if !matches!(found.ty, Type::Polygon | Type::Predictor) {
+            self.wrong_type(&found, face);
+            return None;
+        }
+        Some(found)
     }
 
     fn equal(

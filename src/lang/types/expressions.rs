@@ -38,6 +38,7 @@ impl Checker<'_> {
                 self.coerce(found, due)
             }
             tree::ExprKind::Text(parts) if self.quoted_word(parts, e.span, due) => None,
+            tree::ExprKind::Reference(r) if due.ty == Type::Text && self.unquoted(r, due, scope) => None,
             tree::ExprKind::List(items) if takes_list(due.ty) => self.check_list(e.span, items, due, scope),
             tree::ExprKind::Reference(r) if self.is_word(r, due.ty, scope) => self.word(r, due),
             tree::ExprKind::Reference(r) if due.ty == Type::Direction => match self.direction_word(r, scope) {

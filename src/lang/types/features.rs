@@ -174,8 +174,9 @@ impl Checker<'_> {
         if found.is_none() && !lost && self.first_time("feature", name) {
             let known = || families.by_name.keys().map(String::as_str);
             let out = Diagnostic::new(Code::E0207, name.span, format!("there is no feature `{}`", name.text));
-            self.report(match closest(&name.text, known()) {
-                Some(near) => out.meant(near),
+            let near = member_of(&name.text, families).or_else(|| closest(&name.text, known()).map(str::to_owned));
+            self.report(match near {
+                Some(near) => out.meant(&near),
                 None if families.by_name.is_empty() => out.help("declare it: `feature name : polygon`"),
                 None => out.help(format!("the library has {}", one_of(known()).replace(" or ", " and "))),
             });
@@ -257,4 +258,15 @@ pub(super) fn feature_use(
         index: used,
         span,
     })
+}
+/// `code[2]` for `code_2` and `code2`.
+fn member_of(name: &str, families: &Families) -> Option<String> {
+    let family = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let index: u64 = name[family.len()..].parse().ok()?;
+    let family = family.trim_end_matches('_');
+    let is_one = families
+        .by_name
+        .get(family)
+        .is_some_and(|f| declared(f).contains(&index));
+    is_one.then(|| format!("{family}[{index}]"))
 }

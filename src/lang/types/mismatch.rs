@@ -6,7 +6,7 @@ use super::typed::Expr;
 use super::{Checker, colours, units};
 use crate::geometry::Vector;
 use crate::lang::diagnostics::{Code, Diagnostic, Edit, Fix};
-use crate::lang::names::suggest::one_of;
+use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree;
 use crate::primitives::Type;
@@ -18,7 +18,12 @@ impl Checker<'_> {
         let (expected, given) = (units::describe(due.ty), units::describe(found.ty));
         let message = format!("expected {expected} for {}, found {given}", due.what);
         let out = Diagnostic::new(Code::E0301, found.span, message).label(given);
-        let help = units::example(due.ty).map(|example| format!("write {expected} {example}"));
+        let help = match (due.ty, found.ty) {
+            (Type::Colour, Type::List(Type::Colour)) => {
+                Some("write one colour, for all of it: a `box` takes one for each of its faces".to_owned())
+            }
+            _ => units::example(due.ty).map(|example| format!("write {expected} {example}")),
+        };
         self.report(out.maybe_help(help));
     }
 
@@ -124,6 +129,29 @@ impl Checker<'_> {
             );
         }
         known
+    }
+
+    /// Reports a word where a text is due, and which stands for nothing that is one.
+    pub(super) fn unquoted(&mut self, r: &tree::Reference, due: Due<'_>, scope: Scope<'_>) -> bool {
+        let word = &r.name.text;
+        let known = scope.parameter(word).is_some()
+            || scope.variable(word).is_some()
+            || scope.module.scope.contains_key(word)
+            || scope.lost(word);
+        let parameters = scope.parameters.iter().flat_map(|p| p.keys()).map(String::as_str);
+        let plain = r.index.is_none() && r.fields.is_empty();
+        if known || !plain || closest(word, parameters).is_some() {
+            return false;
+        }
+        let message = format!("expected a text for {}, found the name `{word}`", due.what);
+        let quoted = format!("\"{word}\"");
+        self.report(
+            Diagnostic::new(Code::E0301, r.span, message)
+                .label("no text")
+                .help(format!("a text stands in quotes: `{quoted}`"))
+                .fix(format!("write `{quoted}`"), r.span, quoted),
+        );
+        true
     }
 
     /// `x`, `up`, `left` where a direction is due: it is reported, and read as the axis

@@ -101,17 +101,37 @@ impl Checker<'_> {
         self.check(default, Due { ty, what: &what }, Scope::of(module))
     }
 
+    /// Reports a word that is no type; the type that is surely meant.
+    fn no_type(&mut self, word: &tree::Name) -> Option<Type> {
+        let known = units::NAMED.iter().map(|(name, _)| *name);
+        let message = format!("there is no type `{}`", word.text);
+        let out = Diagnostic::new(Code::E0201, word.span, message);
+        let (out, meant) = match word.text.as_str() {
+            "marker" => (
+                out.help("a marker is given by its pose: take a `pose`, and pass `label.pose`")
+                    .fix("write `pose`", word.span, "pose"),
+                Some(Type::Pose),
+            ),
+            "shell" | "feature" => (
+                out.help("parts of a feature are passed, not the feature: an `edge`, a `polygon`, a `length`"),
+                None,
+            ),
+            other => match closest(other, known.clone()) {
+                Some(near) => (out.meant(near), units::named(near).map(|(_, ty)| ty)),
+                None => (
+                    out.help(format!("types are {}", known.collect::<Vec<_>>().join(", "))),
+                    None,
+                ),
+            },
+        };
+        self.report(out);
+        meant
+    }
+
     fn type_name(&mut self, name: &tree::TypeName) -> Option<Type> {
         let element = &name.element;
         let Some((word, mut ty)) = units::named(&element.text) else {
-            let known = units::NAMED.iter().map(|(name, _)| *name);
-            let message = format!("there is no type `{}`", element.text);
-            let out = Diagnostic::new(Code::E0201, element.span, message);
-            self.report(match closest(&element.text, known.clone()) {
-                Some(near) => out.meant(near),
-                None => out.help(format!("types are {}", known.collect::<Vec<_>>().join(", "))),
-            });
-            return None;
+            return self.no_type(element);
         };
         self.names.uses(element.span, Entity::Type(word));
         for _ in 0..name.depth {

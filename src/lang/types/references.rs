@@ -154,6 +154,9 @@ impl Checker<'_> {
                 name.text
             )),
             (Some(near), _) => out.meant(&near),
+            (None, None) if name.text == "std" => {
+                out.help("import it at the top, `use std.cameras.kinect_v2`, and name it alone: `kinect_v2`")
+            }
             (None, None) => out.help("define it with `let`, or import it with `use`"),
         });
     }

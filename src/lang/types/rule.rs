@@ -212,6 +212,16 @@ impl<'a> Checker<'a> {
         self.report(out.related(first, "first here").help("leave one of them out"));
     }
 
+    /// Checks something, and leaves out what one code says of it.
+    fn besides<T>(&mut self, code: Code, check: impl FnOnce(&mut Self) -> T) {
+        let before = self.found.len();
+        check(self);
+        let new = self.found.split_off(before);
+        self.found.extend(new.into_iter().filter(|d| d.code != code));
+        // Indices into what was found no longer hold.
+        self.unknown_arguments.retain(|_, at| *at < before);
+    }
+
     fn prediction(&mut self, rule: &tree::Rule, scope: Scope<'_>) -> Option<Expr> {
         let definite = rule.antecedents.is_empty();
         match (definite, rule.predict.first()) {
@@ -221,6 +231,9 @@ impl<'a> Checker<'a> {
                         .related(rule.head, "nothing stands before the `->`")
                         .help("leave `predict` out, or name the features that the prediction follows from"),
                 );
+                self.besides(Code::E0205, |checker| {
+                    checker.part(rule, &rule.predict, "predict", Type::Predictor, scope)
+                });
                 None
             }
             (true, None) => None,

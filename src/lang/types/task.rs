@@ -14,18 +14,18 @@ use crate::lang::names::suggest::{closest, one_of};
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::{self, TaskStatementKind as Kind};
 use crate::primitives::Type;
-use crate::rules::{Goal, Inspected};
+use crate::rules::{Goal, Insertion, Inspected, METHODS, Visibility};
 
-/// The methods of choosing views.
-pub(in crate::lang) const METHODS: &[&str] = &[
-    "gn", "gno", "joint", "joint2", "oa", "uv", "rsv", "rse", "pc", "af", "ae", "ts", "pfdt", "random",
-];
 /// The method where a task names none.
 const USUAL_METHOD: &str = "gn";
 /// What a task can aim at.
 pub(in crate::lang) const GOALS: &[&str] = &["confident", "exhausted"];
 /// When a feature counts as inspected.
 pub(in crate::lang) const INSPECTED: &[&str] = &["observed", "near_point"];
+/// How measurements enter the map.
+pub(in crate::lang) const INSERTION: &[&str] = &["exact", "projective"];
+/// How it is decided what hides a voxel.
+pub(in crate::lang) const VISIBILITY: &[&str] = &["exact", "centre"];
 /// What is verified.
 pub(in crate::lang) const VERIFY: &[&str] = &["all"];
 pub(in crate::lang) const THRESHOLDS: &[(&str, Type)] = &[
@@ -50,7 +50,9 @@ pub(super) struct Draft {
     pub(super) values: BTreeMap<&'static str, Expr>,
     method: Option<String>,
     pub(super) inspected: Option<Inspected>,
+    visibility: Option<Visibility>,
     pub(super) verify: bool,
+    insertion: Option<Insertion>,
     pub(super) thresholds: BTreeMap<&'static str, Option<Expr>>,
     pub(super) sensor_model: BTreeMap<&'static str, Option<Expr>>,
 }
@@ -109,7 +111,25 @@ impl<'a> Checker<'a> {
                     }
                 });
             }
+            Kind::Visibility(name) => {
+                draft.visibility = self.one_of_words(name, "`visibility`", VISIBILITY).map(|word| {
+                    if word == "centre" {
+                        Visibility::Centre
+                    } else {
+                        Visibility::Exact
+                    }
+                });
+            }
             Kind::Verify(name) => draft.verify = self.one_of_words(name, "`verify`", VERIFY).is_some(),
+            Kind::Insertion(name) => {
+                draft.insertion = self.one_of_words(name, "`insertion`", INSERTION).map(|word| {
+                    if word == "projective" {
+                        Insertion::Projective
+                    } else {
+                        Insertion::Exact
+                    }
+                });
+            }
             Kind::SensorModel(fields) => draft.sensor_model = self.fields(fields, SENSOR_MODEL, "sensor_model"),
         }
     }
@@ -363,7 +383,9 @@ fn assemble(task: &tree::Task, mut draft: Draft) -> Option<Task> {
         gain_floor: draft.values.remove("gain_floor"),
         method: draft.method.unwrap_or_else(|| USUAL_METHOD.to_owned()),
         inspected: draft.inspected.unwrap_or(Inspected::Observed),
+        visibility: draft.visibility.unwrap_or(Visibility::Exact),
         verify: draft.verify,
+        insertion: draft.insertion.unwrap_or_default(),
         sensor_model: (draft.sensor_model.into_iter())
             .filter_map(|(name, e)| Some((name, e?)))
             .collect(),

@@ -6,7 +6,7 @@ use crate::lang::names::DefinitionId;
 use crate::lang::source::Span;
 use crate::lang::syntax::tree::Operator;
 use crate::primitives::{Primitive, Type};
-use crate::rules::{FeatureId, FeatureKind, Goal, Inspected, Value};
+use crate::rules::{FeatureId, FeatureKind, Goal, Insertion, Inspected, Value, Visibility};
 
 /// A checked program.
 #[derive(Debug, Default)]
@@ -236,7 +236,9 @@ pub(in crate::lang) struct Task {
     pub gain_floor: Option<Expr>,
     pub method: String,
     pub inspected: Inspected,
+    pub visibility: Visibility,
     pub verify: bool,
+    pub insertion: Insertion,
     /// By field name.
     pub sensor_model: BTreeMap<&'static str, Expr>,
     pub span: Span,

@@ -25,6 +25,11 @@ pub(super) fn all() -> impl Iterator<Item = &'static str> {
     UNITS.iter().map(|(name, ..)| *name).chain(NOUNS.iter().copied())
 }
 
+/// Whether a word is a unit or such a noun.
+pub(in crate::lang) fn is_known(word: &str) -> bool {
+    all().any(|known| known == word)
+}
+
 /// A unit: its name, its type, and what one of it is in SI units.
 pub(in crate::lang) fn find(unit: &str) -> Option<(&'static str, Type, f64)> {
     UNITS.iter().find(|(name, ..)| *name == unit).copied()

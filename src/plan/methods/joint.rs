@@ -13,14 +13,19 @@
 //! views, at least one. Features that a look settles with at least even odds count as
 //! settled there.
 //!
-//! Where no view can tell classes apart, GN's gain decides.
+//! Where the goal asks for no class, or no view can tell classes apart, the new surface
+//! that a view is expected to show decides (`prospect`); `joint2` adds what the best view
+//! after it would still show, for the few most promising ones. Where no class is asked
+//! for, the run is exhausted when no view is expected to show as much as the gain floor,
+//! by what is predicted and what must be.
 
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
-use super::{Choice, Method, Situation};
+use super::prospect::{Expected, Prospect};
+use super::{Choice, Method, Situation, Worth};
 use crate::plan::features::Existence;
-use crate::plan::score;
+use crate::plan::{completion, score};
 use crate::rules::FeatureId;
 
 pub(super) struct Joint;
@@ -32,10 +37,13 @@ impl Method for Joint {
     }
 
     fn choose(&self, situation: &Situation<'_>, _: &mut Pcg64) -> Option<Choice> {
+        if !asks_for_class(situation) {
+            return by_surface(situation, 1);
+        }
         let looks = looks(situation);
         let posterior = &situation.status.posterior;
         let value = |look: &Look| expected_drop(situation, posterior, look);
-        or_gain(situation, looks.iter().map(value).collect())
+        or_surface(situation, looks.iter().map(value).collect(), 1)
     }
 }
 
@@ -45,6 +53,9 @@ impl Method for Joint2 {
     }
 
     fn choose(&self, situation: &Situation<'_>, _: &mut Pcg64) -> Option<Choice> {
+        if !asks_for_class(situation) {
+            return by_surface(situation, 2);
+        }
         let looks = looks(situation);
         let likely: Vec<Look> = looks.iter().map(Look::likely).collect();
         let posterior = &situation.status.posterior;
@@ -61,17 +72,67 @@ impl Method for Joint2 {
             now / (1.0 + later.sum::<f64>())
         };
         let values = looks.par_iter().zip(&likely).map(value).collect();
-        or_gain(situation, values)
+        or_surface(situation, values, 2)
     }
 }
 
-/// The view of largest value; by GN's gain where all values are 0.
-fn or_gain(situation: &Situation<'_>, values: Vec<f64>) -> Option<Choice> {
+/// Whether a class is still to be found.
+fn asks_for_class(situation: &Situation<'_>) -> bool {
+    situation.knowledge.task.goal.confident && !completion::confident(situation.status, situation.knowledge)
+}
+
+/// The view of largest value; by new surface where all values are 0. What is worth a
+/// view is left to eq. 11, for the class is not known yet.
+fn or_surface(situation: &Situation<'_>, values: Vec<f64>, ahead: usize) -> Option<Choice> {
     if values.iter().any(|value| *value > 0.0) {
         return situation.largest(&values);
     }
-    let gains: Vec<f64> = (0..values.len()).map(|k| situation.gains.total(k)).collect();
-    situation.largest(&gains)
+    let choice = by_surface(situation, ahead)?;
+    Some(Choice { worth: None, ..choice })
+}
+
+/// Views of which the next one is looked at as well.
+const PROMISING: usize = 8;
+
+/// The view that is expected to show most new surface, the best view after it included
+/// where `ahead` is 2.
+fn by_surface(situation: &Situation<'_>, ahead: usize) -> Option<Choice> {
+    let prospect = Prospect::of(situation);
+    let expected = prospect.of_views(situation);
+    let mut values: Vec<f64> = expected.iter().map(|e| e.all).collect();
+    if ahead > 1 {
+        look_ahead(situation, &prospect, &mut values);
+    }
+    let most = expected.iter().map(|e| e.firm).fold(0.0, f64::max);
+    let least = f64::from(situation.knowledge.task.gain_floor.max(1));
+    let choice = situation.largest(&values)?;
+    Some(Choice {
+        worth: Some(Worth { most, least }),
+        ..choice
+    })
+}
+
+/// Adds to the most promising views what the best one after each would show; the
+/// others are no longer considered.
+fn look_ahead(situation: &Situation<'_>, prospect: &Prospect, values: &mut [f64]) {
+    let viewpoint = |k: usize| &situation.candidates[situation.gains.views[k]];
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*b].total_cmp(&values[*a]).then(a.cmp(b)));
+    order.truncate(PROMISING);
+    let with_next = |first: &usize| {
+        let left = prospect.after(viewpoint(*first));
+        let next = (0..values.len()).filter(|k| k != first);
+        let shown = next.map(|k| prospect.of_view(viewpoint(k), &left, |_, _| {}));
+        (
+            *first,
+            values[*first] + shown.map(|e: Expected| e.all).fold(0.0, f64::max),
+        )
+    };
+    let totals: Vec<(usize, f64)> = order.par_iter().map(with_next).collect();
+    values.fill(0.0);
+    for (first, total) in totals {
+        values[first] = total;
+    }
 }
 
 /// What a view would tell: features, and how likely its look settles each.
@@ -96,18 +157,18 @@ impl Look {
 
 /// The look of every unvisited view.
 fn looks(situation: &Situation<'_>) -> Vec<Look> {
-    let views = situation.gains.views.par_iter();
-    views.map(|view| look(situation, *view)).collect()
+    let positions = (0..situation.gains.views.len()).into_par_iter();
+    positions.map(|position| look(situation, position)).collect()
 }
 
-fn look(situation: &Situation<'_>, view: usize) -> Look {
-    let (status, knowledge) = (situation.status, situation.knowledge);
+fn look(situation: &Situation<'_>, position: usize) -> Look {
+    let (status, knowledge, seen) = (situation.status, situation.knowledge, situation.look(position));
     let open = |id: &FeatureId| status.feature(*id).state == Existence::Unknown && status.weights[id.index()] > 0.0;
     let chance = |id: FeatureId| {
         let instances = status.feature(id).predicted.values();
         let shares = instances.map(|predicted| {
             let left = predicted.inspected.iter().filter(|done| !**done).count();
-            let n = score::reachable_count(situation.world, &situation.candidates[view], predicted, knowledge);
+            let n = score::reachable_count(&seen, predicted, knowledge);
             n as f64 / left.max(1) as f64
         });
         (id, shares.fold(0.0, f64::max))

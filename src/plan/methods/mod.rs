@@ -1,24 +1,37 @@
 //! Methods of choosing the next view: one file each, and one line in the list.
 //!
-//! A method sees the situation after a measurement and names a view. When to
-//! stop is not its business.
+//! A method sees the situation after a measurement and names a view. All stop by
+//! eq. 11, save those that say themselves whether the view is worth taking.
 
+mod ae;
+mod af;
 mod gn;
 mod gno;
 mod joint;
+mod oa;
+mod occluded;
+mod pc;
 mod pfdt;
+mod prospect;
 mod random;
+mod rays;
+mod rse;
+mod rsv;
 mod ts;
+mod uv;
 
 use rand_pcg::Pcg64;
+use rayon::prelude::*;
 
 use super::error::PlanError;
 use super::knowledge::Knowledge;
+use super::look::{Look, Targets};
 use super::score::{self, Gains, OverlapParts};
 use super::status::Status;
 use super::viewpoint::Viewpoint;
 use super::world::World;
 use crate::geometry::Point;
+use rays::Reading;
 
 /// A way of choosing views.
 pub trait Method: Sync {
@@ -28,15 +41,27 @@ pub trait Method: Sync {
     fn choose(&self, situation: &Situation<'_>, random: &mut Pcg64) -> Option<Choice>;
 }
 
-/// All methods.
+/// All methods, in the order of [`crate::rules::METHODS`].
 const METHODS: &[&dyn Method] = &[
     &gn::Gn,
     &gno::Gno,
     &joint::Joint,
     &joint::Joint2,
+    &oa::OcclusionAware(Reading::Published),
+    &oa::OcclusionAware(Reading::Implemented),
+    &uv::UnobservedVoxel(Reading::Published),
+    &uv::UnobservedVoxel(Reading::Implemented),
+    &rsv::RearSideVoxel(Reading::Published),
+    &rsv::RearSideVoxel(Reading::Implemented),
+    &rse::RearSideEntropy(Reading::Published),
+    &rse::RearSideEntropy(Reading::Implemented),
+    &pc::ProximityCount,
+    &af::AreaFactor,
+    &ae::AverageEntropy(Reading::Published),
+    &ae::AverageEntropy(Reading::Implemented),
+    &ts::TwoStages,
     &pfdt::Pfdt,
     &random::Random,
-    &ts::TwoStages,
 ];
 
 /// What a method chooses by.
@@ -77,6 +102,25 @@ pub struct Choice {
     pub relaxed: bool,
     /// A few that it was preferred to, best first; none where the method does not rank.
     pub rivals: Vec<Rank>,
+    /// Whether a view is worth taking, by the method's own measure; where `None`,
+    /// eq. 11 decides.
+    pub worth: Option<Worth>,
+}
+
+/// A method's own measure of what is left to gain, voxel faces of new surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worth {
+    /// The most that a view is expected to show.
+    pub most: f64,
+    /// The least that a view is worth taking for.
+    pub least: f64,
+}
+
+impl Worth {
+    /// s_ail: no view is worth taking.
+    pub fn exhausted(&self) -> bool {
+        self.most < self.least
+    }
 }
 
 /// Most views that a choice tells of beside the chosen one.
@@ -106,22 +150,24 @@ impl Situation<'_> {
         positions.filter(|k| self.gains.total(*k) > 0.0).collect()
     }
 
-    /// The share that G_ovlp judges, for each of some positions.
-    pub fn overlaps(&self, positions: &[usize]) -> Vec<f64> {
-        use rayon::prelude::*;
-        let parts = OverlapParts::of(self.world, self.status);
+    /// The share that G_ovlp judges, for each of some ranks.
+    pub fn overlaps(&self, parts: &OverlapParts, ranks: &[Rank]) -> Vec<f64> {
         let near = self.knowledge.criteria.near;
-        let share = |k: &usize| score::overlap_share(self.world, self.view(*k), &parts, near);
-        positions.par_iter().map(share).collect()
+        let share = |rank: &Rank| score::overlap_share(&self.look(rank.position), parts, near);
+        ranks.par_iter().map(share).collect()
     }
 
     /// G_so of every unvisited view after the gain floor, whatever W is.
     pub fn surfaces(&self) -> Vec<u64> {
-        use rayon::prelude::*;
-        let rear = self.world.rear_side();
-        let views = self.gains.views.par_iter().map(|v| &self.candidates[*v]);
-        let surface = |view: &Viewpoint| score::surface_gain(self.world, view, &rear, self.knowledge);
-        views.map(surface).collect()
+        let rear = Targets::of(self.world, self.world.rear_side());
+        let positions = (0..self.gains.views.len()).into_par_iter();
+        let surface = |position: usize| score::surface_gain(&self.look(position), &rear, self.knowledge);
+        positions.map(surface).collect()
+    }
+
+    /// What an unvisited view sees.
+    pub fn look(&self, position: usize) -> Look<'_, dyn World + '_> {
+        Look::of(self.world, self.view(position), self.knowledge.criteria.visibility)
     }
 
     /// The choice by a value of every unvisited view, without an overlap
@@ -139,22 +185,28 @@ impl Situation<'_> {
             best,
             relaxed: false,
             rivals,
+            worth: None,
         })
     }
 
-    /// The views of largest value, best first: of equals the nearest to the
-    /// current view, then the lowest index. The first is the choice, the others of
-    /// some value its rivals.
+    /// The views of largest value, best first, as [`Situation::sort`] puts them. The
+    /// first is the choice, the others of some value its rivals.
     pub fn ranked(&self, mut ranks: Vec<Rank>, value: impl Fn(&Rank) -> f64) -> Option<(Rank, Vec<Rank>)> {
+        self.sort(&mut ranks, &value);
+        ranks.truncate(1 + MOST_RIVALS);
+        let mut ranks = ranks.into_iter();
+        let best = ranks.next()?;
+        Some((best, ranks.filter(|rank| value(rank) > 0.0).collect()))
+    }
+
+    /// Puts views of larger value first: of equals the nearest to the current view,
+    /// then the lowest index.
+    pub fn sort(&self, ranks: &mut [Rank], value: impl Fn(&Rank) -> f64) {
         ranks.sort_by(|a, b| {
             let nearer = || self.distance(a.position).total_cmp(&self.distance(b.position));
             let larger = value(b).total_cmp(&value(a));
             larger.then_with(nearer).then_with(|| a.position.cmp(&b.position))
         });
-        ranks.truncate(1 + MOST_RIVALS);
-        let mut ranks = ranks.into_iter();
-        let best = ranks.next()?;
-        Some((best, ranks.filter(|rank| value(rank) > 0.0).collect()))
     }
 
     /// How far a view is from the current one, metres.
@@ -170,6 +222,11 @@ impl Situation<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_task_can_name_every_method() {
+        assert_eq!(names().collect::<Vec<_>>(), crate::rules::METHODS);
+    }
 
     #[test]
     fn names_are_read_in_any_case_and_unknown_ones_list_what_exists() {

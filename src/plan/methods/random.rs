@@ -23,6 +23,7 @@ impl Method for Random {
             },
             relaxed: false,
             rivals: Vec::new(),
+            worth: None,
         })
     }
 }

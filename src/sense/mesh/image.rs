@@ -16,7 +16,7 @@ const MOST: u32 = 8192;
 ///
 /// # Errors
 /// What is wrong with it.
-pub(super) fn decode(bytes: &[u8]) -> Result<Texture, String> {
+pub(in crate::sense) fn decode(bytes: &[u8]) -> Result<Texture, String> {
     let texture = if bytes.starts_with(b"\x89PNG") {
         decode_png(bytes)?
     } else if bytes.starts_with(&[0xff, 0xd8]) {

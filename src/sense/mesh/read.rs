@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use super::options::{Axis, MeshOptions, Units};
-use super::{Mesh, MeshError, MeshWarning, Paint, Texture, gltf, obj, ply, stl};
+use super::{Mesh, MeshError, MeshWarning, Paint, Texture, gltf, obj, open_edges, ply, stl};
 use crate::geometry::{Bounds, Point};
 
 /// Largest file, bytes.
@@ -176,6 +176,9 @@ impl Soup {
             warnings: std::mem::take(&mut self.warnings),
             ..Mesh::default()
         };
+        // Before faces without area go: they may be what joins their neighbours.
+        let bounds = Bounds::around(self.corners.iter().flatten());
+        let open = bounds.map_or(0, |bounds| open_edges(self.corners.iter().copied(), &bounds));
         let mut index: HashMap<[u64; 3], u32> = HashMap::new();
         let mut dropped = 0;
         for (corners, paint) in self.corners.drain(..).zip(self.paints.drain(..)) {
@@ -197,7 +200,6 @@ impl Soup {
             mesh.triangles.push(triangle);
             mesh.paints.push(paint);
         }
-        let open = mesh.open_edges();
         if dropped > 0 {
             mesh.warnings.push(MeshWarning::DegenerateFaces(dropped));
         }

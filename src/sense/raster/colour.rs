@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::{NOTHING, Visibility};
+use super::{Facets, NOTHING, Visibility};
 use crate::geometry::{Point, Pose, Vector};
 use crate::sense::{ColourImage, Paint};
 
@@ -46,14 +46,16 @@ impl Backdrop {
 
 /// The colour image of what is visible. Without a backdrop, empty air is black.
 pub(in crate::sense) fn shade(seen: &Visibility, backdrop: Option<Backdrop>, world_from_camera: &Pose) -> ColourImage {
+    let facets = seen.facets();
     let painter = Painter {
         seen,
         air: backdrop.map_or([0; 3], |b| b.colour),
-        bright: seen
-            .facets
+        bright: facets
+            .all
             .par_iter()
-            .map(|f| light(&f.normal(), world_from_camera))
+            .map(|f| light(&f.normal, world_from_camera))
             .collect(),
+        facets,
     };
     let (width, height) = (seen.image.width, seen.image.height);
     let mut pixels = vec![painter.air; seen.image.pixels()];
@@ -68,12 +70,13 @@ pub(in crate::sense) fn shade(seen: &Visibility, backdrop: Option<Backdrop>, wor
 /// the side of the normal, so both faces of a sheet differ.
 fn light(normal_in_camera: &Vector, world_from_camera: &Pose) -> f32 {
     let towards = Vector::new(0.36, -0.48, 0.8);
-    let normal = world_from_camera * normal_in_camera.normalize();
+    let normal = world_from_camera * normal_in_camera;
     (AMBIENT + (1.0 - AMBIENT) * (0.5 + 0.5 * normal.dot(&towards))) as f32
 }
 
 struct Painter<'a> {
     seen: &'a Visibility<'a>,
+    facets: Facets,
     air: [u8; 3],
     bright: Vec<f32>,
 }
@@ -85,7 +88,7 @@ impl Painter<'_> {
         let (width, height) = (row.len(), self.seen.image.height as usize);
         let rows = v.saturating_sub(1)..(v + 2).min(height);
         let (mut first, mut last) = (width, 0);
-        for slots in rows.map(|r| &self.seen.slots[r * width..(r + 1) * width]) {
+        for slots in rows.map(|r| &self.facets.slots[r * width..(r + 1) * width]) {
             if let Some(u) = slots.iter().position(|&s| s != NOTHING) {
                 first = first.min(u.saturating_sub(1));
             }
@@ -100,7 +103,7 @@ impl Painter<'_> {
 
     fn pixel(&self, u: usize, v: usize) -> [u8; 3] {
         let width = self.seen.image.width as usize;
-        let slot = self.seen.slots[v * width + u];
+        let slot = self.facets.slots[v * width + u];
         let around = self.neighbours(u, v);
         if around.iter().all(|&s| s == slot) {
             return self.plain_pixel(slot, u, v);
@@ -124,7 +127,7 @@ impl Painter<'_> {
         let (left, right) = (u.saturating_sub(1), (u + 1).min(width - 1));
         let (above, below) = (v.saturating_sub(1) * width, (v + 1).min(height - 1) * width);
         let here = v * width;
-        let at = |k: usize| self.seen.slots[k];
+        let at = |k: usize| self.facets.slots[k];
         [
             at(above + left),
             at(above + u),
@@ -160,7 +163,7 @@ impl Painter<'_> {
     }
 
     fn paint(&self, slot: u32) -> &Paint {
-        &self.seen.mesh.paints[self.seen.facets[slot as usize].triangle as usize]
+        &self.seen.mesh.paints[self.facets.all[slot as usize].triangle as usize]
     }
 
     fn plain_pixel(&self, slot: u32, u: usize, v: usize) -> [u8; 3] {
@@ -196,7 +199,7 @@ impl Painter<'_> {
     fn nearest(&self, slots: &[u32], ray: &Vector) -> [u8; 3] {
         let mut best = (0.0, NOTHING);
         for &slot in slots.iter().filter(|&&s| s != NOTHING) {
-            if let Some(inverse) = self.seen.facets[slot as usize].hit(ray)
+            if let Some(inverse) = self.facets.all[slot as usize].hit(ray)
                 && inverse > best.0
             {
                 best = (inverse, slot);
@@ -217,12 +220,12 @@ impl Painter<'_> {
         match self.paint(slot) {
             Paint::Flat(colour) => lit(colour.map(f32::from), bright),
             Paint::Corners(colours) => {
-                let w = self.seen.facets[slot as usize].weights(ray);
+                let w = self.facets.all[slot as usize].weights(ray);
                 let blend = |c: usize| (0..3).map(|k| w[k] as f32 * f32::from(colours[k][c])).sum();
                 lit([blend(0), blend(1), blend(2)], bright)
             }
             Paint::Image { texture, uv, tint } => {
-                let w = self.seen.facets[slot as usize].weights(ray);
+                let w = self.facets.all[slot as usize].weights(ray);
                 let at = |c: usize| (0..3).map(|k| w[k] * uv[k][c]).sum::<f64>();
                 let texel = self.seen.mesh.textures[*texture as usize].at(at(0), at(1));
                 let tinted = [0, 1, 2].map(|c| f32::from(texel[c]) * f32::from(tint[c]) / 255.0);

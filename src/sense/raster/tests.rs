@@ -1,3 +1,6 @@
+mod reference;
+mod watertight;
+
 use super::*;
 use crate::geometry::{Point, look_at};
 use crate::sense::Paint;
@@ -89,12 +92,14 @@ fn the_nearest_triangle_wins_and_its_face_is_told() {
     let outside = Visibility::of(&mesh, &image, &look_at(Point::new(3.0, 0.0, 0.0), Point::origin()));
     let middle = 16 * 33 + 16;
     assert!((outside.depth(middle).unwrap() - 2.0).abs() < 1e-6);
-    assert!(outside.triangle(middle).unwrap().1);
-    assert!((outside.cosine(middle).unwrap() - 1.0).abs() < 1e-9);
+    let facets = outside.facets();
+    let facet = facets.at(middle).unwrap();
+    assert!(facet.front);
+    assert!((facet.cosine(&outside.ray(middle)) - 1.0).abs() < 1e-9);
     let ray = outside.ray(10 * 33 + 20);
-    assert!((outside.cosine(10 * 33 + 20).unwrap() - 1.0 / ray.norm()).abs() < 1e-9);
+    assert!((facets.at(10 * 33 + 20).unwrap().cosine(&ray) - 1.0 / ray.norm()).abs() < 1e-9);
     let inside = Visibility::of(&mesh, &image, &look_at(Point::origin(), Point::new(1.0, 0.0, 0.0)));
-    assert!(!inside.triangle(middle).unwrap().1);
+    assert!(!inside.facets().at(middle).unwrap().front);
 }
 
 #[test]

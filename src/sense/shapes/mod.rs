@@ -4,6 +4,7 @@
 //! outward-wound mesh in the object's frame. `marker` adds printed codes.
 
 mod builder;
+mod cuboid;
 mod deform;
 mod marker;
 mod outline;
@@ -30,6 +31,7 @@ use crate::rules::Call;
 /// Not a shape, arguments missing or out of range, or an unreadable mesh file.
 pub fn mesh(shape: &Call, base: &Path) -> Result<Mesh, SceneError> {
     match shape.primitive.as_str() {
+        "box" => cuboid::build(shape),
         "prism" => prism::build(shape),
         "pyramid" => pyramid::build(shape),
         "tank" => tank::build(shape),

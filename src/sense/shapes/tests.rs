@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use super::testing::*;
 use super::*;
 use crate::geometry::{Point, Pose, Vector, frame_facing};
-use crate::rules::{Expr, Marker, Value};
+use crate::rules::{Colour, Expr, Marker, Value};
 
 fn volume(mesh: &Mesh) -> f64 {
     (0..mesh.triangles.len())
@@ -48,6 +48,30 @@ fn side_one_of_a_prism_faces_x_and_the_colours_tell_the_faces() {
     assert_eq!(colour(Vector::z()), mesh::Paint::Flat([200, 200, 200]));
     assert_eq!(colour(Vector::x()), mesh::Paint::Flat([30, 160, 50]));
     assert!((mesh.bounds().max - Point::new(0.0707107, 0.0707107, 0.1)).norm() < 1e-6);
+}
+
+#[test]
+fn a_box_is_closed_and_each_face_has_its_colour() {
+    let colour = |c: [u8; 3]| Expr::Value(Value::Colour(Colour(c)));
+    let sizes = [("width", mm(100.0)), ("depth", mm(200.0)), ("height", mm(300.0))];
+    let painted = [
+        ("colour", colour([9, 9, 9])),
+        ("right", colour([0, 0, 200])),
+        ("top", colour([200, 0, 0])),
+    ];
+    let mesh = build(&call("box", &[&sizes[..], &painted[..]].concat())).unwrap();
+    assert_eq!(mesh.open_edges(), 0);
+    assert!((volume(&mesh) - 0.1 * 0.2 * 0.3).abs() < 1e-12);
+    for k in 0..mesh.triangles.len() {
+        let normal = mesh.vector_area(k).normalize();
+        let expected = match normal {
+            n if n.y < -0.5 => [0, 0, 200],
+            n if n.z > 0.5 => [200, 0, 0],
+            _ => [9, 9, 9],
+        };
+        assert_eq!(mesh.paints[k], mesh::Paint::Flat(expected), "{normal}");
+    }
+    assert!((mesh.bounds().max - Point::new(0.05, 0.1, 0.15)).norm() < 1e-12);
 }
 
 #[test]

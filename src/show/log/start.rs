@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Ordered;
 use crate::plan::Session;
-use crate::rules;
+use crate::rules::{self, Visibility};
 
 /// What is run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,6 +23,9 @@ pub struct Start {
     pub seed: u64,
     /// Name of the depth noise.
     pub noise: String,
+    /// How measurements entered the map.
+    #[serde(default)]
+    pub insertion: rules::Insertion,
     /// Most measurements.
     pub limit: u32,
     /// Number of candidate views.
@@ -56,6 +59,9 @@ pub struct Criteria {
     pub overlap: f64,
     /// Voxels below which a gain does not count.
     pub gain_floor: u32,
+    /// How it is decided what hides a voxel; older logs do not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub visibility: Option<Visibility>,
 }
 
 /// A library in a log.
@@ -96,6 +102,9 @@ pub struct Rule {
     pub predict: Option<String>,
     /// Line in its file.
     pub line: u32,
+    /// [`rules::Rule::digest`]; empty in logs that were written without.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub digest: String,
 }
 
 impl Start {
@@ -110,6 +119,7 @@ impl Start {
             method: session.method().to_owned(),
             seed,
             noise: noise.to_owned(),
+            insertion: session.task().insertion,
             limit: session.limit(),
             candidates: session.views().len(),
             rules,
@@ -130,6 +140,7 @@ impl From<&rules::Task> for Criteria {
             confidence: task.thresholds.confidence,
             overlap: task.overlap,
             gain_floor: task.gain_floor,
+            visibility: Some(task.visibility),
         }
     }
 }
@@ -165,6 +176,7 @@ impl Rule {
             detect: rule.detect.primitive.clone(),
             predict: rule.predict.as_ref().map(|p| p.primitive.clone()),
             line: rule.place.line,
+            digest: rule.digest(library),
         }
     }
 }

@@ -73,7 +73,7 @@ impl Subject {
             "rule" => names.has_rule(rest).then_some(Self::Rule(owned)),
             "feature" => names.features.contains(&owned).then_some(Self::Feature(owned)),
             "class" => names.classes.contains(&owned).then_some(Self::Class(owned)),
-            "instance" => names.instances.contains(rest).then_some(Self::Instance(owned)),
+            "instance" => names.instance(rest),
             _ => names.find(typed),
         };
         let name = if found.is_none() && kind.is_empty() {
@@ -158,8 +158,19 @@ impl Names {
         } else if self.classes.contains(&owned) {
             Some(Subject::Class(owned))
         } else {
-            self.instances.contains(name).then_some(Subject::Instance(owned))
+            self.instance(name)
         }
+    }
+
+    /// An instance by its key, or by its feature and its key: `side.2/edge.1`.
+    fn instance(&self, name: &str) -> Option<Subject> {
+        let known = |key: &str| self.instances.contains(key).then(|| Subject::Instance(key.to_owned()));
+        let of_feature = || {
+            let (feature, key) = name.split_once('.')?;
+            let is_one = self.features.iter().any(|f| f == feature);
+            known(key).filter(|_| is_one)
+        };
+        known(name).or_else(of_feature)
     }
 
     fn without(self, name: &str) -> Unknown {

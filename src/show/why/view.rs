@@ -167,6 +167,7 @@ fn ending(condition: &Condition, goal: &Stop) -> String {
         "contradiction" if !condition.holds => "✗ no contradiction".to_owned(),
         "feature gain" | "feature seen whole" => gain(condition, "of a feature that matters"),
         "surface gain" => gain(condition, "behind the measured surface"),
+        "view limit" => limit(condition),
         "verified" if condition.holds => "✓ every predicted feature of the class was inspected".to_owned(),
         "verified" => format!(
             "✗ `{}` of the class was not inspected",
@@ -175,6 +176,18 @@ fn ending(condition: &Condition, goal: &Stop) -> String {
         _ => words::condition(condition),
     };
     said + asked
+}
+
+/// `✗ not at the limit of views: 10 of 20`.
+fn limit(condition: &Condition) -> String {
+    let Test::Quantity { least, found, .. } = &condition.test else {
+        return words::condition(condition);
+    };
+    let (found, limit) = (found.unwrap_or(0.0), least.unwrap_or(0.0));
+    match condition.holds {
+        true => format!("✓ at the limit of {limit} views"),
+        false => format!("✗ not at the limit of views: {found} of {limit}"),
+    }
 }
 
 /// `✓ nothing to gain behind the measured surface: no unvisited view shows more than 8 voxels, …`.
@@ -311,8 +324,17 @@ pub(super) fn row(mark: char, standing: &Standing) -> String {
         )
     });
     let line = format!(
-        "  {mark} #{:<4} {:<6.4} {overlap:<8} {:<8.4} {:<8} {}  {distance}{target}",
-        standing.view, standing.score, terms.feature, terms.surface, terms.w
+        "  {mark} #{:<4} {:<6} {overlap:<8} {:<8} {:<8} {}  {distance}{target}",
+        standing.view,
+        decimals(standing.score),
+        decimals(terms.feature),
+        terms.surface,
+        terms.w
     );
     line.trim_end().to_owned() + "\n"
+}
+
+/// Four decimals as far as they say something: `1490`, `0.8571`.
+fn decimals(x: f64) -> String {
+    format!("{}", (x * 1e4).round() / 1e4)
 }

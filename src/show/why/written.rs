@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::rules::{Library, Place, Rule, RuleSet};
+use crate::show::log::Start;
 
 /// Most lines of a rule that are shown.
 const MOST_LINES: usize = 16;
@@ -31,14 +32,24 @@ pub struct Passage {
 }
 
 impl Written {
-    /// A rule of a task's library; `text` gives the name of a place's file, and the
-    /// declaration that begins there, indented as it stands.
-    pub fn of(rules: &RuleSet, task: &str, id: &str, text: impl Fn(Place) -> Option<(String, String)>) -> Self {
-        let task = rules.tasks.iter().find(|t| t.name == task);
+    /// The rule `id` of a run as its program, compiled to `rules`, writes it now: where
+    /// it still means what it did, wherever it stands by now. `text` gives the name of a
+    /// place's file, and the declaration that begins there, indented as it stands.
+    pub fn of(rules: &RuleSet, run: &Start, id: &str, text: impl Fn(Place) -> Option<(String, String)>) -> Self {
+        let task = rules.tasks.iter().find(|t| t.name == run.task);
         let library = task.and_then(|t| rules.library(t));
-        let rule = library.and_then(|l| l.rules.iter().find(|r| r.id == id));
+        let then = run.library.as_ref().and_then(|l| l.rules.get(id));
+        let unchanged = rules.digest() == run.rules;
+        let same = |library: &Library, rule: &Rule| match then {
+            _ if unchanged => rule.id == id,
+            Some(then) => rule.digest(library) == then.digest,
+            None => false,
+        };
+        let rule = library.and_then(|l| l.rules.iter().find(|r| same(l, r)));
         let (Some(library), Some(rule)) = (library, rule) else {
-            return Self::Gone("the program no longer has this rule".into());
+            return Self::Gone(format!(
+                "no rule of the program is what `{id}` was in the run any more, so its text is not shown"
+            ));
         };
         match text(rule.place) {
             Some((file, text)) => Self::Here(Passage {
