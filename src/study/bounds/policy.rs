@@ -76,7 +76,7 @@ impl Policy {
     }
 
     /// The views that the policy takes on an object of a class, the first given.
-    /// `None` where the class never becomes certain.
+    /// `None` where some class that is left never becomes certain.
     pub fn views_of(&mut self, decoded: &Decoded, start: usize, class: &str) -> Option<Vec<usize>> {
         let class = self.names.iter().position(|name| name == class)?;
         let mut left = self.after(self.all(), &decoded.found[start], class);
@@ -264,7 +264,9 @@ mod tests {
         let mut policy = Policy::new(&library, 0.99, &first_only).unwrap();
         assert_eq!(policy.expected_from(&first_only, 0), f64::INFINITY);
         assert_eq!(policy.views_of(&first_only, 0, "c1"), None);
-        assert_eq!(policy.views_of(&first_only, 1, "c2").unwrap(), [1, 0]);
+        // The class itself is told at once, but no policy ends on all of them.
+        assert_eq!(policy.views_of(&first_only, 0, "c2").unwrap(), [0]);
+        assert_eq!(policy.views_of(&first_only, 1, "c2"), None);
     }
 
     /// Adaptive: the second look depends on what the first one said.
