@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn every_reserved_word_is_explained() {
-        assert!(WORDS.iter().filter(|(w, _)| vocabulary::is_reserved(w)).count() == 11);
+        assert!(WORDS.iter().filter(|(w, _)| vocabulary::is_reserved(w)).count() == 12);
         for statement in ["thresholds", "sensor_model"] {
             let fields = vocabulary::fields(statement);
             assert!(fields.iter().all(|(f, _)| field(statement, f).is_some()), "{statement}");

@@ -105,7 +105,12 @@ fn folders_of_studies() {
     fs::write(at.join("a.vpl"), format!("{TANKS}{study}")).unwrap();
     fs::create_dir_all(at.join("out")).unwrap();
     fs::write(at.join("out/thesis.tex"), "").unwrap();
-    says("E0605", &at, "out: a folder with a file of somebody's own", "study a.vpl --out out");
+    says(
+        "E0605",
+        &at,
+        "out: a folder with a file of somebody's own",
+        "study a.vpl --out out",
+    );
 }
 
 #[test]

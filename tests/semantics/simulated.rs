@@ -458,7 +458,7 @@ fn wrong_input_is_refused_with_its_reason() {
         open("reconstruct", None).unwrap(),
         "there is no task `reconstruct`; the file has `task`"
     );
-    assert!(open("task", Some("uv")).unwrap().contains("`uv`"));
+    assert!(open("task", Some("best")).unwrap().contains("`best`"));
     let mut session = Session::new(&rules, "task", Options::default()).unwrap();
     let task = reconstruction();
     let scene = scene(prism(4), placed(0.0, 0.0, 0.3, 0.0), Vec::new(), &task);

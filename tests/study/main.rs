@@ -246,7 +246,7 @@ fn wrong_usage_and_endless_studies_are_told_before_anything_runs() {
     assert!(!bench.path("out").exists());
     let planned = bench.study(&["solids.vpl", "--dry-run", "--shard", "2/5"]);
     let said = String::from_utf8_lossy(&planned.stdout).into_owned();
-    assert!(said.contains("runs        5 of 24"), "{said}");
+    assert!(said.contains("runs        7 of 32"), "{said}");
 }
 
 #[test]
