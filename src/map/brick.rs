@@ -146,12 +146,12 @@ mod tests {
                 (0..VOXELS).for_each(|i| brick.values[i] = start.wrapping_add(i as u8));
                 let before = brick.values;
                 brick.apply(&[hit; WORDS], &[miss; WORDS], &model);
-                for i in 0..VOXELS {
+                for (i, &was) in before.iter().enumerate() {
                     let (hit, miss) = (hit >> (i % 64) & 1 == 1, miss >> (i % 64) & 1 == 1);
                     let expected = match (hit, miss) {
-                        (true, _) => model.moved(before[i], 0xff, 0),
-                        (false, true) => model.missed(before[i]),
-                        (false, false) => before[i],
+                        (true, _) => model.moved(was, 0xff, 0),
+                        (false, true) => model.missed(was),
+                        (false, false) => was,
                     };
                     assert_eq!(brick.values[i], expected);
                 }

@@ -120,9 +120,9 @@ impl Projection {
     pub fn bound(&self, first: [i32; 3], sides: [i32; 3]) -> Option<Bound> {
         let first = self.place(first);
         let (mut low, mut high) = (first, first);
-        for axis in 0..3 {
+        for (along, side) in self.steps.iter().zip(sides) {
             for k in 0..3 {
-                let step = (self.steps[axis][k] * f64::from(sides[axis] - 1)) as f32;
+                let step = (along[k] * f64::from(side - 1)) as f32;
                 (low[k], high[k]) = (low[k] + step.min(0.0), high[k] + step.max(0.0));
             }
         }

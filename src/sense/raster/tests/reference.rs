@@ -168,9 +168,8 @@ proptest! {
         let inner = (1..17_u32).flat_map(|v| (1..23_u32).map(move |u| (u, v)));
         for ((u, v), triangle) in inner.filter_map(|(u, v)| Some(((u, v), scene.alone(u, v)?))) {
             let Some(truth) = scene.colour(u, v, triangle) else { continue };
-            for c in 0..3 {
-                let drawn = f64::from(drawn.at(u, v)[c]);
-                prop_assert!((drawn - truth[c]).abs() <= 1.001, "({}, {}): {} instead of {}", u, v, drawn, truth[c]);
+            for (drawn, truth) in drawn.at(u, v).map(f64::from).into_iter().zip(truth) {
+                prop_assert!((drawn - truth).abs() <= 1.001, "({}, {}): {} instead of {}", u, v, drawn, truth);
             }
         }
     }
